@@ -1,0 +1,29 @@
+# SPDX-License-Identifier: GPL-3.0-or-later
+# How our own code is compiled. Libraries' headers are system headers, so that warnings as errors
+# hit only us. There is no NDEBUG question: TOILE_ASSERT is on in every build type.
+
+find_program(CCACHE_PROGRAM ccache)
+if(CCACHE_PROGRAM)
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${CCACHE_PROGRAM}")
+endif()
+
+set(CMAKE_CXX_FLAGS_SANITIZE "-O1 -g -fno-omit-frame-pointer" CACHE STRING
+    "Flags of the sanitizer presets")
+set(CMAKE_EXE_LINKER_FLAGS_SANITIZE "" CACHE STRING "Linker flags of the sanitizer presets")
+mark_as_advanced(CMAKE_CXX_FLAGS_SANITIZE CMAKE_EXE_LINKER_FLAGS_SANITIZE CCACHE_PROGRAM)
+
+add_library(toile_options INTERFACE)
+target_compile_options(toile_options INTERFACE
+  -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor -Woverloaded-virtual -Wcast-align
+  -Wold-style-cast -Wextra-semi -Werror
+  # Answers must be the same on machines with and without fused multiply-add.
+  -ffp-contract=off)
+
+if(TOILE_SANITIZE)
+  # For every target at once: a program in which only some objects are instrumented reports nonsense.
+  add_compile_options(-fsanitize=${TOILE_SANITIZE})
+  add_link_options(-fsanitize=${TOILE_SANITIZE})
+  if(TOILE_SANITIZE MATCHES "undefined")
+    add_compile_options(-fno-sanitize-recover=undefined)
+  endif()
+endif()
