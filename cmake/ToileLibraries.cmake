@@ -18,6 +18,9 @@ find_package(CGAL 5.5 REQUIRED QUIET)
 find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(SuiteSparse REQUIRED)
+# CHOLMOD reaches OpenBLAS through libblas; linked by name too, so that the engine can hold it to
+# one thread (openblas_set_num_threads in cblas.h).
+pkg_check_modules(openblas REQUIRED IMPORTED_TARGET openblas)
 find_package(PNG REQUIRED)
 pkg_check_modules(cairo REQUIRED IMPORTED_TARGET cairo)
 pkg_check_modules(pangocairo REQUIRED IMPORTED_TARGET pangocairo)
@@ -26,6 +29,6 @@ pkg_check_modules(dxflib REQUIRED IMPORTED_TARGET dxflib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 
 set(TOILE_PRIVATE_LIBRARIES
-    CGAL::CGAL TBB::tbb embree SuiteSparse::cholmod SuiteSparse::umfpack PNG::PNG
-    PkgConfig::cairo PkgConfig::pangocairo PkgConfig::clipper PkgConfig::dxflib PkgConfig::xxhash
-    Threads::Threads)
+    CGAL::CGAL TBB::tbb embree SuiteSparse::cholmod SuiteSparse::umfpack
+    PkgConfig::openblas PNG::PNG PkgConfig::cairo PkgConfig::pangocairo PkgConfig::clipper
+    PkgConfig::dxflib PkgConfig::xxhash Threads::Threads)
