@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "toile/core/content_hash.h"
+#include "toile/core/units.h"
+#include "toile/curve/subdivision.h"
+#include "toile/curve/view.h"
+#include "toile/mesh/surface_point.h"
+#include "toile/model/reference_model.h"
+
+namespace toile {
+
+/// Keys of a file that this version does not know, each with its JSON text; written back as read.
+using UnknownKeys = std::map<std::string, std::string>;
+
+enum class CurveKind {
+  Seam,     ///< cut and sewn
+  Opening,  ///< cut but not sewn: a zip
+  Feature,  ///< stays in one piece, keeps its length
+  Elastic,  ///< a feature whose length may move within a range
+  Dart,     ///< cut that ends inside a piece
+  Mark      ///< drawn, neither cut nor kept
+};
+[[nodiscard]] std::string_view toString(CurveKind kind);
+/// Seam, Opening, Dart: the surface is opened along it.
+[[nodiscard]] constexpr bool isCut(CurveKind kind) {
+  return kind == CurveKind::Seam || kind == CurveKind::Opening || kind == CurveKind::Dart;
+}
+/// Feature, Elastic: an inner wire.
+[[nodiscard]] constexpr bool isInnerWire(CurveKind kind) {
+  return kind == CurveKind::Feature || kind == CurveKind::Elastic;
+}
+
+// Places for control points that a person can write without a drawing program.
+
+/// The landmark of that name.
+struct AtLandmark {
+  std::string name;
+  friend bool operator==(const AtLandmark&, const AtLandmark&) = default;
+};
+/// A fraction of the length of a model curve.
+struct OnModelCurve {
+  std::string name;
+  double fraction = 0;  ///< 0..1
+  friend bool operator==(const OnModelCurve&, const OnModelCurve&) = default;
+};
+/// A fraction of the length of another styling curve of the design; circles are refused.
+struct OnStylingCurve {
+  std::string id;
+  double fraction = 0;
+  friend bool operator==(const OnStylingCurve&, const OnStylingCurve&) = default;
+};
+/// A plane, through a landmark or at an offset along its normal. It means the one loop of its
+/// section that passes the landmark; at an offset, the longest.
+struct SectionPlane {
+  Eigen::Vector3d normal{0, 0, 1};
+  std::variant<Length, AtLandmark> through = Length();
+  friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
+};
+/// The point of a plane section that lies farthest out in a direction from the section's centre
+/// line: where the ray from the loop's centroid along `direction` leaves it.
+struct OnSection {
+  SectionPlane plane;
+  Eigen::Vector3d direction{0, -1, 0};
+  friend bool operator==(const OnSection&, const OnSection&) = default;
+};
+/// Closest surface point of a place in space, mm.
+struct NearPosition {
+  Eigen::Vector3d position;
+  friend bool operator==(const NearPosition&, const NearPosition&) = default;
+};
+
+using Place =
+    std::variant<SurfacePoint, AtLandmark, OnModelCurve, OnStylingCurve, OnSection, NearPosition>;
+
+/// Control points, subdivided and put on the surface by closest point.
+struct SmoothWay {
+  std::vector<Place> controls;
+  SubdivisionRule rule = SubdivisionRule::Auto;
+  friend bool operator==(const SmoothWay&, const SmoothWay&) = default;
+};
+/// Control points on the plane of a view, subdivided there and projected.
+struct ViewWay {
+  View view;
+  std::vector<Eigen::Vector2d> controls;
+  SubdivisionRule rule = SubdivisionRule::Auto;
+  friend bool operator==(const ViewWay&, const ViewWay&) = default;
+};
+/// A stretch of a model curve; the whole of a closed one when from = 0, to = 1.
+struct AlongModelCurve {
+  std::string name;
+  double from = 0;
+  double to = 1;
+  friend bool operator==(const AlongModelCurve&, const AlongModelCurve&) = default;
+};
+/// Along mesh edges through these vertices, each joined to the next by an edge or else by a link.
+struct AlongVertices {
+  std::vector<VertexId> vertices;
+  friend bool operator==(const AlongVertices&, const AlongVertices&) = default;
+};
+/// The whole loop of a plane section: a girth.
+struct AlongSection {
+  SectionPlane plane;
+  friend bool operator==(const AlongSection&, const AlongSection&) = default;
+};
+/// The shortest way through its places, without smoothing.
+struct ShortestWay {
+  std::vector<Place> controls;
+  friend bool operator==(const ShortestWay&, const ShortestWay&) = default;
+};
+
+using CurveWay =
+    std::variant<SmoothWay, ViewWay, AlongModelCurve, AlongVertices, AlongSection, ShortestWay>;
+
+enum class SeamKind { Butt, Lapped, Hem };
+
+/// How one side of a curve is finished.
+struct SeamSide {
+  std::optional<Length> allowance;  ///< of the options otherwise
+  SeamKind kind = SeamKind::Butt;
+  friend bool operator==(const SeamSide&, const SeamSide&) = default;
+};
+
+/// A designer's line. The way is how it was drawn; once put on the model, `dataPoints` are the
+/// truth and are linked by geodesics; empty means: not yet put on the model (resolved when used).
+struct StylingCurve {
+  std::string id;  ///< unique in the design; [A-Za-z0-9_-]+
+  std::string name;
+  CurveKind kind = CurveKind::Seam;
+  bool closed = false;
+  CurveWay way;
+  std::vector<SurfacePoint> dataPoints;
+  std::optional<std::string> mirrorOf;  ///< id of the curve whose mirror image this one is
+  std::optional<Ratio> elasticRange;    ///< of an Elastic curve, either way
+  SeamSide left;                        ///< seen from outside, walking along the curve
+  SeamSide right;
+  UnknownKeys unknown;
+  friend bool operator==(const StylingCurve&, const StylingCurve&) = default;
+};
+
+/// Identity of a piece: the region in which the anchor lies.
+struct PieceRecord {
+  std::string id;
+  std::string name;
+  Place anchor;
+  bool include = true;
+  int count = 1;
+  std::string fabric;                 ///< id; empty = the first
+  std::vector<std::string> boundary;  ///< ids of the curves around it, cyclic; empty = not noted
+  UnknownKeys unknown;
+  friend bool operator==(const PieceRecord&, const PieceRecord&) = default;
+};
+
+struct Fabric {
+  std::string id;
+  std::string name;
+  std::string colour;                                       ///< "#rrggbb" or empty
+  std::optional<Ratio> stretchAlong, stretchAcross, shear;  ///< limits
+  Length thickness;
+  std::optional<Length> rollWidth;
+  Ratio ease;
+  UnknownKeys unknown;
+  friend bool operator==(const Fabric&, const Fabric&) = default;
+};
+
+struct Order {
+  std::string style, size, customer;
+  std::string date;  ///< ISO yyyy-mm-dd or empty
+  UnknownKeys unknown;
+  friend bool operator==(const Order&, const Order&) = default;
+};
+
+/// Which model a design was drawn on.
+struct ModelReference {
+  std::string reference;         ///< path relative to the design, or "builtin:..."
+  std::optional<FileUnit> unit;  ///< of the mesh file
+  std::optional<ContentHash> connectivityHash;
+  UnknownKeys unknown;
+  friend bool operator==(const ModelReference&, const ModelReference&) = default;
+};
+
+/// How the pieces are finished, unless a curve says otherwise.
+struct FinishSettings {
+  Length allowance = Length::mm(10);
+  Length notchDepth = Length::mm(4);
+  Length notchSpacing = Length::mm(150);  ///< about one notch per so much of seam
+  UnknownKeys unknown;
+  friend bool operator==(const FinishSettings&, const FinishSettings&) = default;
+};
+
+struct Design {
+  std::string name;
+  std::vector<ModelReference> models;  ///< the first is the one it was drawn on
+  std::vector<StylingCurve> curves;
+  std::vector<PieceRecord> pieces;
+  std::vector<Fabric> fabrics;
+  Order order;
+  FinishSettings finish;
+  UnknownKeys unknown;  ///< layers, layout, options of later versions
+  friend bool operator==(const Design&, const Design&) = default;
+};
+
+/// A Design with the models it is used on; a value.
+struct Document {
+  std::shared_ptr<const Design> design;
+  std::shared_ptr<const ReferenceModel> model;  ///< the one that pieces are made for
+};
+
+/// A styling curve put on a model.
+struct PlacedCurve {
+  std::string id;
+  CurveKind kind = CurveKind::Seam;
+  std::vector<SurfacePoint> dataPoints;
+  SurfacePath path;  ///< the data points linked by geodesics; on the surface everywhere
+};
+
+/// Puts every curve of the design on the model, in the design's order.
+///
+/// A curve with data points uses them (they mean the same place on any model of the connectivity
+/// that the design was drawn on); one without is resolved from its way; `mirrorOf` without data
+/// points is mirrored by the model's symmetry pairing.
+/// @return NameNotFound, LeavesSilhouette, CurveInvalid naming the curve; ModelMismatch when the
+/// model
+///   has another connectivity than the design's and the design holds surface points.
+Result<std::vector<PlacedCurve>> placeCurves(const Design& design, const ReferenceModel& model);
+
+/// One place on the model; `placed` are the curves that OnStylingCurve may name.
+Result<SurfacePoint> resolvePlace(const Place& place, const ReferenceModel& model,
+                                  const std::vector<PlacedCurve>& placed);
+
+}  // namespace toile

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include "toile/layout/pattern.h"
+
+namespace toile {
+
+/// The layout 1:1 in mm (viewBox in mm), a group per piece with a layer per role, data-* attributes
+/// with piece, curve and seam ids, no scaling transforms.
+std::string writeSvg(const Pattern& pattern);
+
+}  // namespace toile

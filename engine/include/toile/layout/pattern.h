@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "toile/layout/layout.h"
+
+namespace toile {
+
+/// Everything that was made from a document. `flats`, `failures` run parallel to `cut.pieces`.
+struct Pattern {
+  Document document;
+  std::vector<PlacedCurve> curves;
+  CutResult cut;
+  std::vector<std::shared_ptr<const FlatPiece>> flats;  ///< null: left out, or failed
+  std::vector<std::optional<Error>> failures;           ///< why a piece could not be unfolded
+  std::vector<PatternPiece> pieces;                     ///< of the flats that passed every check
+  std::vector<std::uint32_t> pieceIndex;                ///< per pattern piece: index in cut.pieces
+  Layout layout;
+  std::vector<Finding> findings;  ///< of all steps, in their order
+
+  /// Every included piece was unfolded and passed its checks.
+  [[nodiscard]] bool isComplete() const;
+};
+
+}  // namespace toile

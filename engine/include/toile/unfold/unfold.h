@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "toile/core/progress.h"
+#include "toile/cut/cut.h"
+#include "toile/mesh/mesh_file.h"
+
+namespace toile {
+
+struct UnfoldOptions {
+  /// kappa of the objective: price of area change against shear; 0 = plain symmetric Dirichlet.
+  double areaWeight = 2;  ///< 0..1000
+  /// beta: wires cannot wave below beta * sqrt(area); raised by its own rule where they would
+  /// crinkle.
+  double wireStiffness = 0.05;  ///< 0..10
+  int maxSteps = 100;           ///< of the solver
+};
+
+/// How far one face is from its shape on the body.
+struct FaceDistortion {
+  double stretchMax = 1;  ///< larger singular value of the map body -> plane
+  double stretchMin = 1;  ///< smaller one
+  [[nodiscard]] double areaRatio() const { return stretchMax * stretchMin; }
+};
+
+/// What was verified after the solve, from the final positions alone.
+struct UnfoldCheck {
+  double maxLengthError = 0;  ///< over wire edges: |flat - target| / max(target, 1 mm)
+  double maxClosureGap = 0;   ///< mm: of walking each boundary loop by its flat edges
+  std::size_t flippedFaces = 0;
+  std::size_t crossings = 0;  ///< pairs of wire edges that cross without sharing a node
+  /// Greatest |theta - alpha| at wire nodes that are not corners (|pi - alpha| < 35 degrees),
+  /// radians.
+  double maxTurnError = 0;
+  [[nodiscard]] bool passes() const {
+    return maxLengthError <= 1e-9 && flippedFaces == 0 && crossings == 0 && maxClosureGap <= 1e-6;
+  }
+};
+
+/// The piece in the plane: right side up, y up, faces counter-clockwise, mm.
+struct FlatPiece {
+  VertexData<Eigen::Vector2d> position;
+  FaceData<FaceDistortion> distortion;
+  UnfoldCheck check;
+  int steps = 0;             ///< of the solver
+  double wireStiffness = 0;  ///< the beta used at the end
+  double meanAreaError = 0;  ///< area-weighted mean of |A2/A3 - 1|
+  double maxAreaError = 0;
+  std::vector<Finding> findings;  ///< crossings, high strain, saddle point, ...
+};
+
+/// Unfolds a piece with the exact target length of every wire edge and the least strain.
+///
+/// Minimises symmetric Dirichlet energy with an area price plus a bending energy of the wires
+/// subject to |q_i - q_j| = target on all wire edges; infeasible-start SQP from a conformal start.
+/// The answer is a function of piece and options alone: no history, any number of threads. Centroid
+/// at the origin; turned so that the model's up (z) points up on average.
+///
+/// @param piece a disk, possibly with holes.
+/// @return the flat piece with its checks (the caller decides on crossings), or
+///   NotADisk (one vertex per boundary loop), DegenerateFace, LengthsInfeasible (worst wires),
+///   NotConverged, Cancelled.
+/// @par Cost  5 to 10 sparse factorisations of the mesh; see docs/unfolding.md
+/// @see docs/unfolding.md for the objective and the solver.
+Result<FlatPiece> unfold(const Piece& piece, const UnfoldOptions& options = {},
+                         Progress* progress = nullptr);
+
+/// A piece from a surface patch alone: inner chains become wires (darts open the surface), the
+/// border becomes border wires. Face order is the mesh's; without darts vertex order too. Group
+/// names are `wire_<kind>_<id>`; a chain without group is a feature.
+/// @return CurveInvalid for a chain step that is no mesh edge or an unknown wire kind, with the
+/// line.
+Result<Piece> makePiece(const std::string& name, const Mesh& mesh,
+                        const std::vector<PolygonSoup::Chain>& chains,
+                        const std::map<std::string, double>& targets = {});
+
+}  // namespace toile
