@@ -19,6 +19,7 @@
 namespace toile {
 
 /// Keys of a file that this version does not know, each with its JSON text; written back as read.
+/// What can be drawn by the thousand (model points) has none: unknown keys there are refused.
 using UnknownKeys = std::map<std::string, std::string>;
 
 enum class CurveKind {
@@ -39,23 +40,44 @@ enum class CurveKind {
   return kind == CurveKind::Feature || kind == CurveKind::Elastic;
 }
 
+/// A surface point as a design and its file hold it: by vertices and faces of the model alone, so
+/// that it can be read before the model is known and does not depend on how edges are numbered.
+struct ModelPoint {
+  struct OnEdge {
+    VertexId tail;   ///< the smaller of the two vertex indices
+    VertexId head;   ///< the larger
+    double t = 0.5;  ///< 0 < t < 1, from tail to head
+    friend bool operator==(const OnEdge&, const OnEdge&) = default;
+  };
+  std::variant<VertexId, OnEdge, SurfacePoint::InFace> at;
+  friend bool operator==(const ModelPoint&, const ModelPoint&) = default;
+};
+/// Lossless: toSurfacePoint(mesh, toModelPoint(mesh, p)) == p, bit for bit.
+[[nodiscard]] ModelPoint toModelPoint(const Mesh& mesh, const SurfacePoint& point);
+/// @return ModelMismatch when the mesh has no such vertex, edge or face; CurveInvalid when t or the
+///   weights are out of range.
+Result<SurfacePoint> toSurfacePoint(const Mesh& mesh, const ModelPoint& point);
+
 // Places for control points that a person can write without a drawing program.
 
 /// The landmark of that name.
 struct AtLandmark {
   std::string name;
+  UnknownKeys unknown{};
   friend bool operator==(const AtLandmark&, const AtLandmark&) = default;
 };
 /// A fraction of the length of a model curve.
 struct OnModelCurve {
   std::string name;
   double fraction = 0;  ///< 0..1
+  UnknownKeys unknown{};
   friend bool operator==(const OnModelCurve&, const OnModelCurve&) = default;
 };
 /// A fraction of the length of another styling curve of the design; circles are refused.
 struct OnStylingCurve {
   std::string id;
   double fraction = 0;
+  UnknownKeys unknown{};
   friend bool operator==(const OnStylingCurve&, const OnStylingCurve&) = default;
 };
 /// A plane, through a landmark or at an offset along its normal. It means the one loop of its
@@ -63,6 +85,7 @@ struct OnStylingCurve {
 struct SectionPlane {
   Eigen::Vector3d normal{0, 0, 1};
   std::variant<Length, AtLandmark> through = Length();
+  UnknownKeys unknown{};
   friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
 };
 /// The point of a plane section that lies farthest out in a direction from the section's centre
@@ -70,21 +93,24 @@ struct SectionPlane {
 struct OnSection {
   SectionPlane plane;
   Eigen::Vector3d direction{0, -1, 0};
+  UnknownKeys unknown{};
   friend bool operator==(const OnSection&, const OnSection&) = default;
 };
 /// Closest surface point of a place in space, mm.
 struct NearPosition {
   Eigen::Vector3d position;
+  UnknownKeys unknown{};
   friend bool operator==(const NearPosition&, const NearPosition&) = default;
 };
 
 using Place =
-    std::variant<SurfacePoint, AtLandmark, OnModelCurve, OnStylingCurve, OnSection, NearPosition>;
+    std::variant<ModelPoint, AtLandmark, OnModelCurve, OnStylingCurve, OnSection, NearPosition>;
 
 /// Control points, subdivided and put on the surface by closest point.
 struct SmoothWay {
   std::vector<Place> controls;
   SubdivisionRule rule = SubdivisionRule::Auto;
+  UnknownKeys unknown{};
   friend bool operator==(const SmoothWay&, const SmoothWay&) = default;
 };
 /// Control points on the plane of a view, subdivided there and projected.
@@ -92,6 +118,8 @@ struct ViewWay {
   View view;
   std::vector<Eigen::Vector2d> controls;
   SubdivisionRule rule = SubdivisionRule::Auto;
+  UnknownKeys unknown{};
+  UnknownKeys unknownOfView{};
   friend bool operator==(const ViewWay&, const ViewWay&) = default;
 };
 /// A stretch of a model curve; the whole of a closed one when from = 0, to = 1.
@@ -99,21 +127,25 @@ struct AlongModelCurve {
   std::string name;
   double from = 0;
   double to = 1;
+  UnknownKeys unknown{};
   friend bool operator==(const AlongModelCurve&, const AlongModelCurve&) = default;
 };
 /// Along mesh edges through these vertices, each joined to the next by an edge or else by a link.
 struct AlongVertices {
   std::vector<VertexId> vertices;
+  UnknownKeys unknown{};
   friend bool operator==(const AlongVertices&, const AlongVertices&) = default;
 };
 /// The whole loop of a plane section: a girth.
 struct AlongSection {
   SectionPlane plane;
+  UnknownKeys unknown{};
   friend bool operator==(const AlongSection&, const AlongSection&) = default;
 };
 /// The shortest way through its places, without smoothing.
 struct ShortestWay {
   std::vector<Place> controls;
+  UnknownKeys unknown{};
   friend bool operator==(const ShortestWay&, const ShortestWay&) = default;
 };
 
@@ -126,6 +158,7 @@ enum class SeamKind { Butt, Lapped, Hem };
 struct SeamSide {
   std::optional<Length> allowance;  ///< of the options otherwise
   SeamKind kind = SeamKind::Butt;
+  UnknownKeys unknown{};
   friend bool operator==(const SeamSide&, const SeamSide&) = default;
 };
 
@@ -137,7 +170,7 @@ struct StylingCurve {
   CurveKind kind = CurveKind::Seam;
   bool closed = false;
   CurveWay way;
-  std::vector<SurfacePoint> dataPoints;
+  std::vector<ModelPoint> dataPoints;
   std::optional<std::string> mirrorOf;  ///< id of the curve whose mirror image this one is
   std::optional<Ratio> elasticRange;    ///< of an Elastic curve, either way
   SeamSide left;                        ///< seen from outside, walking along the curve
