@@ -25,8 +25,10 @@ struct Notch {
   Eigen::Vector2d onSewLine;  ///< mm
   Eigen::Vector2d direction;  ///< unit, into the piece
   double depth = 4;           ///< mm
-  std::string seam;           ///< curve id
-  int number = 0;             ///< the same on both mates of a seam
+  std::string seam;           ///< curve id of the run it stands on
+  /// The same on every piece that is sewn together there; 0 where the neighbours' own seam ends, so
+  /// that they have a corner there and no notch.
+  int number = 0;
 };
 
 /// A line drawn on the piece, not cut.
@@ -48,6 +50,10 @@ struct OutlineRun {
   std::size_t edgeCount = 0;
   double allowance = 0;  ///< mm
   double length = 0;     ///< mm, flat
+  /// Number of the seam, the same on both sides, counted from 1 over the whole pattern: what the
+  /// pieces show beside their edges. Runs that feature lines part share it. 0 = not sewn.
+  int seam = 0;
+  std::string mate;  ///< id of the piece sewn on here; empty = none
 };
 
 /// The flat piece with everything that the cutting room needs.
@@ -71,12 +77,22 @@ struct PatternPiece {
 
 /// Finishes all pieces of a pattern together, since notches come in pairs.
 ///
-/// @param cut the pieces; @param flats per piece of `cut`, null where unfolding failed or the piece
-/// is
-///   left out: those give no pattern piece.
-/// @return pattern pieces in the order of the pieces that have a flat.
+/// The sew line is the flat boundary itself. The cut line lies outside of it by the allowance of
+/// each run (of that side of its curve, else of the options), corners mitred. Notches stand where
+/// feature lines and other seams meet a seam and about every `notchSpacing` along it, at equal
+/// sewn lengths on both sides, never at corners except beside a dart's mouth; two side by side on
+/// seams of the back.
+///
+/// @param document the design and the model it is made for.
+/// @param curves the design's curves on that model: they say which side of a seam is the left one,
+///   and where marks lie.
+/// @param cut the pieces.
+/// @param flats per piece of `cut`, null where unfolding failed or the piece is left out: those
+/// give no pattern piece.
+/// @return pattern pieces in the order of the pieces that have a flat, or InvalidArgument where a
+///   piece's boundary wires do not form closed loops or a flat piece does not fit its piece.
 Result<std::vector<PatternPiece>> finish(
-    const Design& design, const CutResult& cut,
+    const Document& document, const std::vector<PlacedCurve>& curves, const CutResult& cut,
     const std::vector<std::shared_ptr<const FlatPiece>>& flats);
 
 }  // namespace toile
