@@ -1,32 +1,41 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toile/core/parallel.h"
 
-#include <tbb/global_control.h>
 #include <tbb/parallel_for.h>
+#include <tbb/task_arena.h>
+
+#include <atomic>
 
 namespace toile {
 
+namespace {
+
+std::atomic<std::size_t> threadLimit{0};
+
+}  // namespace
+
 void parallelFor(std::size_t count, const std::function<void(std::size_t)>& body) {
-  // One item a task: items are pieces or image tiles, few and large.
-  tbb::parallel_for(
-      tbb::blocked_range<std::size_t>(0, count, 1),
-      [&](const tbb::blocked_range<std::size_t>& range) {
-        for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
-      },
-      tbb::simple_partitioner());
-}
-
-struct ThreadLimit::Control {
-  tbb::global_control tbb;
-};
-
-ThreadLimit::ThreadLimit(std::size_t threads) {
-  if (threads > 0) {
-    control_ = std::make_unique<Control>(
-        Control{tbb::global_control(tbb::global_control::max_allowed_parallelism, threads)});
+  const std::size_t limit = threadLimit;
+  if (limit == 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
   }
+  tbb::task_arena arena(limit == 0 ? tbb::task_arena::automatic : static_cast<int>(limit));
+  // One item a task: items are pieces or image tiles, few and large.
+  arena.execute([&] {
+    tbb::parallel_for(
+        tbb::blocked_range<std::size_t>(0, count, 1),
+        [&](const tbb::blocked_range<std::size_t>& range) {
+          for (std::size_t i = range.begin(); i != range.end(); ++i) body(i);
+        },
+        tbb::simple_partitioner());
+  });
 }
 
-ThreadLimit::~ThreadLimit() = default;
+ThreadLimit::ThreadLimit(std::size_t threads) : previous_(threadLimit.exchange(threads)) {}
+
+ThreadLimit::~ThreadLimit() {
+  threadLimit = previous_;
+}
 
 }  // namespace toile

@@ -3,7 +3,6 @@
 
 #include <cstddef>
 #include <functional>
-#include <memory>
 
 namespace toile {
 
@@ -20,8 +19,7 @@ class ThreadLimit {
   ThreadLimit& operator=(const ThreadLimit&) = delete;
 
  private:
-  struct Control;
-  std::unique_ptr<Control> control_;
+  std::size_t previous_;
 };
 
 }  // namespace toile
