@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "session.h"
+
+namespace toile::cli {
+
+// One per file of the same name; listed in main.cpp in the order of the help text.
+
+}  // namespace toile::cli
