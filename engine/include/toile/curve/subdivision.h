@@ -16,12 +16,16 @@ enum class SubdivisionRule {
 inline constexpr int kSubdivisionRounds = 3;
 
 /// 4-point subdivision: interpolates the control points; n open ones become 2^rounds (n-1) + 1
-/// points, n closed ones 2^rounds n. Two open points give a straight row. The phantom points at
-/// open ends reflect, or are given (an edited stretch takes its outside neighbours).
+/// points, n closed ones 2^rounds n. Two open points give a straight row. At an open end the
+/// uniform rule reflects the second point in the first; the centripetal one uses the cubic through
+/// the first four points (quadratic through three). The reversed row gives the reversed curve bit
+/// for bit.
 ///
 /// @param points at least 2 (open) or 3 (closed), neighbours different. Dimension 2 (view plane)
 /// or 3.
-/// @see Dyn, Levin, Gregory, "A 4-point interpolatory subdivision scheme", CAGD 4, 1987.
+/// @see Dyn, Levin, Gregory, "A 4-point interpolatory subdivision scheme", CAGD 4, 1987; Dyn,
+/// Floater, Hormann, "Four-point curve subdivision based on iterated chordal and centripetal
+/// parameterizations", CAGD 26, 2009.
 template <int Dimension>
 std::vector<Eigen::Matrix<double, Dimension, 1>> subdivide(
     std::span<const Eigen::Matrix<double, Dimension, 1>> points, bool closed,
