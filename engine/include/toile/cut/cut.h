@@ -29,10 +29,13 @@ struct CutEdge {
   double targetLength = 0;  ///< mm, what the flat edges must have (design.md, rule 1)
   WireKind kind = WireKind::Border;
   std::uint32_t curve = 0;  ///< index of the styling curve; kNoCurve for the model's border
+  bool backward = false;    ///< the curve runs from the edge's head to its tail
 };
 inline constexpr std::uint32_t kNoCurve = 0xffffffffU;
 
-/// The model's mesh refined so that every curve runs along edges.
+/// The model's mesh refined so that every curve runs along edges. Its vertices are those of the
+/// model, then nodes on edges, then nodes in faces, each in the order of where they lie; its faces
+/// come in the order of their source faces.
 struct RefinedMesh {
   Mesh mesh;                         ///< one vertex per node; nothing is opened yet
   VertexData<SurfacePoint> onModel;  ///< where each vertex lies on the model
@@ -92,7 +95,10 @@ struct CutResult {
 
 /// Refines the mesh along the curves: exact per-face constrained Delaunay triangulation over one
 /// node table in integer barycentric coordinates, so that neighbouring faces agree and no T-vertex
-/// exists.
+/// exists. Nodes closer than kMergeDistanceMm become one, curves that pass a node closer than half
+/// of that are led through it. Where curves share an edge the strongest kind keeps it (seam before
+/// opening, dart, elastic, feature), then the first curve; the model's border stays border. Marks
+/// are left out.
 /// @return CurveInvalid for a path that is not on the mesh.
 /// @par Cost  linear in the triangles plus, per crossed face, quadratic in its segments
 Result<RefinedMesh> refine(const Mesh& mesh, std::span<const PlacedCurve> curves);

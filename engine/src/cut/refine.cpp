@@ -1,0 +1,338 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "cut/face_segments.h"
+#include "cut/face_triangulation.h"
+#include "toile/core/parallel.h"
+#include "toile/cut/cut.h"
+
+namespace toile {
+namespace {
+
+using cutting::FaceFrame;
+using cutting::kUnit;
+using cutting::LatticePoint;
+using cutting::LocalEdge;
+using cutting::LocalTriangle;
+using cutting::Node;
+using cutting::NodeTable;
+using cutting::Segment;
+
+/// Each round hands nodes on from one face to its neighbours; a few are usual.
+constexpr int kMaxRounds = 100;
+
+constexpr std::array<WireKind, 5> kKindByRank{WireKind::Seam, WireKind::Opening, WireKind::Dart,
+                                              WireKind::Elastic, WireKind::Feature};
+
+std::uint8_t rankOf(CurveKind kind) {
+  switch (kind) {
+    case CurveKind::Seam:
+      return 0;
+    case CurveKind::Opening:
+      return 1;
+    case CurveKind::Dart:
+      return 2;
+    case CurveKind::Elastic:
+      return 3;
+    case CurveKind::Feature:
+    case CurveKind::Mark:
+      break;
+  }
+  return 4;
+}
+
+/// A point of a curve as whole numbers, before it is a node.
+Node roundToLattice(const SurfacePoint& point) {
+  constexpr auto kParts = static_cast<double>(kUnit);
+  if (const auto* v = std::get_if<VertexId>(&point.at)) return Node::vertex(*v);
+  if (const auto* e = std::get_if<SurfacePoint::OnEdge>(&point.at)) {
+    return Node::edge(e->edge, std::llround(e->t * kParts));
+  }
+  const auto& in = std::get<SurfacePoint::InFace>(point.at);
+  const std::int64_t b1 =
+      std::clamp<std::int64_t>(std::llround(in.barycentric[1] * kParts), 0, kUnit);
+  const std::int64_t b2 =
+      std::clamp<std::int64_t>(std::llround(in.barycentric[2] * kParts), 0, kUnit - b1);
+  return Node::face(in.face, b1, b2);
+}
+
+class Refiner {
+ public:
+  Refiner(const Mesh& mesh, std::span<const PlacedCurve> curves)
+      : mesh_(mesh), curves_(curves), table_(mesh), inFace_(mesh.faceCount()) {}
+
+  Result<RefinedMesh> run() {
+    if (auto placed = placeSegments(); !placed) return placed.error();
+    if (auto settled = settle(); !settled) return settled.error();
+    numberNodes();
+    return build();
+  }
+
+ private:
+  /// Curve points become nodes in the order of where they lie, not of who drew them.
+  Result<void> placeSegments() {
+    std::vector<Node> rounded;
+    for (const PlacedCurve& curve : curves_) {
+      if (curve.kind == CurveKind::Mark) continue;
+      if (!isValid(mesh_, curve.path)) {
+        return Error{ErrorCode::CurveInvalid,
+                     "curve \"" + curve.id + "\" does not lie on this model; draw it again",
+                     {Element::curve(curve.id)}};
+      }
+      for (const SurfacePoint& point : curve.path.points) rounded.push_back(roundToLattice(point));
+    }
+    std::vector<Node> sorted = rounded;
+    std::sort(sorted.begin(), sorted.end());
+    sorted.erase(std::unique(sorted.begin(), sorted.end()), sorted.end());
+    std::vector<Node> nodes;
+    nodes.reserve(sorted.size());
+    for (const Node& at : sorted) nodes.push_back(insert(at));
+
+    std::size_t next = 0;
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      const PlacedCurve& curve = curves_[c];
+      if (curve.kind == CurveKind::Mark) continue;
+      const std::size_t count = curve.path.points.size();
+      std::vector<Node> chain;
+      for (std::size_t i = 0; i < count; ++i) {
+        const auto found = std::lower_bound(sorted.begin(), sorted.end(), rounded[next++]);
+        chain.push_back(nodes[static_cast<std::size_t>(found - sorted.begin())]);
+      }
+      for (std::size_t i = 0; i < curve.path.faceOfSegment.size(); ++i) {
+        inFace_[curve.path.faceOfSegment[i].index()].push_back(cutting::makeSegment(
+            chain[i], chain[(i + 1) % count], rankOf(curve.kind), static_cast<std::uint32_t>(c)));
+      }
+    }
+    return {};
+  }
+
+  Node insert(const Node& at) {
+    switch (at.kind) {
+      case Node::Kind::Vertex:
+        return at;
+      case Node::Kind::Edge:
+        return table_.insertOnEdge(EdgeId(at.element), at.p, kMergeDistanceMm);
+      case Node::Kind::Face:
+        break;
+    }
+    const FaceFrame frame(mesh_, FaceId(at.element));
+    return table_.insertInFace(frame, {at.p, at.q}, kMergeDistanceMm);
+  }
+
+  /// Faces by rounds, because a node that one puts on an edge concerns the other. Which faces wait
+  /// in a round depends on their surroundings alone.
+  Result<void> settle() {
+    table_.takeChangedEdges();
+    std::vector<FaceId> waiting;
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      if (!inFace_[f].empty()) waiting.emplace_back(f);
+    }
+    for (int round = 0; round < kMaxRounds && !waiting.empty(); ++round) {
+      std::vector<FaceId> next;
+      for (const FaceId f : waiting) {
+        const FaceFrame frame(mesh_, f);
+        std::vector<Segment>& segments = inFace_[f.index()];
+        if (!settleSegments(frame, table_, segments, alongEdges_, kMergeDistanceMm)) {
+          return restless(f);
+        }
+        for (const EdgeId e : table_.takeChangedEdges()) {
+          const HalfedgeId h = mesh_.halfedge(e);
+          for (const HalfedgeId side : {h, mesh_.opposite(h)}) {
+            if (side.isValid() && mesh_.face(side) != f) next.push_back(mesh_.face(side));
+          }
+        }
+      }
+      std::sort(next.begin(), next.end());
+      next.erase(std::unique(next.begin(), next.end()), next.end());
+      waiting = std::move(next);
+    }
+    if (!waiting.empty()) return restless(waiting.front());
+    return {};
+  }
+
+  [[nodiscard]] Error restless(FaceId f) const {
+    Error error{ErrorCode::CurveInvalid, "", {Element::face(f)}};
+    std::string names;
+    for (const Segment& s : inFace_[f.index()]) {
+      const std::string& id = curves_[s.owner.curve].id;
+      if (names.find('"' + id + '"') != std::string::npos) continue;
+      names += (names.empty() ? "\"" : ", \"") + id + '"';
+      error.where.push_back(Element::curve(id));
+    }
+    error.message = "curves " + names + " are too tangled in face " + std::to_string(f.index()) +
+                    "; move them apart or repair the face";
+    return error;
+  }
+
+  void numberNodes() {
+    std::size_t count = mesh_.vertexCount();
+    for (std::size_t e = 0; e < mesh_.edgeCount(); ++e) {
+      firstOnEdge_.push_back(count);
+      count += table_.onEdge(EdgeId(e)).size();
+    }
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      firstInFace_.push_back(count);
+      count += table_.inFace(FaceId(f)).size();
+    }
+    nodes_.reserve(count);
+    for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
+      nodes_.push_back(Node::vertex(VertexId(v)));
+    }
+    for (std::size_t e = 0; e < mesh_.edgeCount(); ++e) {
+      for (const std::uint32_t t : table_.onEdge(EdgeId(e))) {
+        nodes_.push_back(Node::edge(EdgeId(e), t));
+      }
+    }
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      for (const auto& [p, q] : table_.inFace(FaceId(f))) {
+        nodes_.push_back(Node::face(FaceId(f), p, q));
+      }
+    }
+  }
+
+  [[nodiscard]] VertexId vertexOf(const Node& node) const {
+    std::size_t rank = node.element;
+    if (node.kind == Node::Kind::Edge) {
+      const auto& nodes = table_.onEdge(EdgeId(node.element));
+      rank = firstOnEdge_[node.element] +
+             static_cast<std::size_t>(std::lower_bound(nodes.begin(), nodes.end(), node.p) -
+                                      nodes.begin());
+    } else if (node.kind == Node::Kind::Face) {
+      const auto& nodes = table_.inFace(FaceId(node.element));
+      const auto found = std::lower_bound(nodes.begin(), nodes.end(), std::pair{node.p, node.q});
+      rank = firstInFace_[node.element] + static_cast<std::size_t>(found - nodes.begin());
+    }
+    return VertexId(rank);
+  }
+
+  Result<std::vector<Triangle>> refineFace(FaceId f) const {
+    const FaceFrame frame(mesh_, f);
+    std::vector<Node> nodes = table_.nodesOf(frame);
+    if (nodes.size() == 3) return std::vector<Triangle>{mesh_.vertices(f)};
+    std::sort(nodes.begin(), nodes.end());
+    std::vector<LatticePoint> points;
+    for (const Node& node : nodes) points.push_back(frame.lattice(node));
+    const auto indexOf = [&](const Node& node) {
+      return static_cast<std::uint32_t>(std::lower_bound(nodes.begin(), nodes.end(), node) -
+                                        nodes.begin());
+    };
+    std::vector<LocalEdge> edges;
+    for (const Segment& s : inFace_[f.index()]) edges.emplace_back(indexOf(s.a), indexOf(s.b));
+    Result<std::vector<LocalTriangle>> triangulated = cutting::triangulate(points, edges);
+    if (!triangulated) {
+      return triangulated.error().during("face " + std::to_string(f.index()));
+    }
+    makeDelaunay(frame, points, edges, *triangulated);
+    std::vector<Triangle> triangles;
+    for (LocalTriangle t : *triangulated) {
+      std::rotate(t.begin(), std::min_element(t.begin(), t.end()), t.end());
+      triangles.push_back({vertexOf(nodes[t[0]]), vertexOf(nodes[t[1]]), vertexOf(nodes[t[2]])});
+    }
+    std::sort(triangles.begin(), triangles.end());
+    return triangles;
+  }
+
+  Result<RefinedMesh> build() {
+    std::vector<std::optional<Result<std::vector<Triangle>>>> refined(mesh_.faceCount());
+    parallelFor(mesh_.faceCount(), [&](std::size_t f) { refined[f] = refineFace(FaceId(f)); });
+    std::vector<Triangle> triangles;
+    std::vector<FaceId> sources;
+    for (std::size_t f = 0; f < refined.size(); ++f) {
+      if (!*refined[f]) return refined[f]->error();
+      triangles.insert(triangles.end(), (*refined[f])->begin(), (*refined[f])->end());
+      sources.insert(sources.end(), (*refined[f])->size(), FaceId(f));
+    }
+    std::vector<Eigen::Vector3d> positions;
+    positions.reserve(nodes_.size());
+    VertexData<SurfacePoint> onModel(nodes_.size());
+    for (std::size_t v = 0; v < nodes_.size(); ++v) {
+      positions.push_back(cutting::position(mesh_, nodes_[v]));
+      onModel[VertexId(v)] = cutting::surfacePoint(nodes_[v]);
+    }
+    Result<Mesh> mesh = makeMesh(std::move(positions), std::move(triangles));
+    if (!mesh) return mesh.error().during("refining along the curves");
+    RefinedMesh result{std::move(*mesh), std::move(onModel), {}, {}, {}};
+    result.sourceFace = FaceData<FaceId>(sources.size());
+    result.sourceFace.values() = std::move(sources);
+    nameCutEdges(result);
+    return result;
+  }
+
+  /// Splits what runs along mesh edges at every node there.
+  void splitAlongEdges() {
+    std::vector<Segment> parts;
+    for (const Segment& s : alongEdges_) {
+      const VertexId va = vertexOf(s.a);
+      const VertexId vb = vertexOf(s.b);
+      const EdgeId edge =
+          s.a.kind == Node::Kind::Edge
+              ? EdgeId(s.a.element)
+              : (s.b.kind == Node::Kind::Edge ? EdgeId(s.b.element) : mesh_.findEdge(va, vb));
+      const auto place = [&](const Node& node) -> std::int64_t {
+        if (node.kind == Node::Kind::Edge) return node.p;
+        return node.element == mesh_.tail(edge).index() ? 0 : kUnit;
+      };
+      const auto [low, high] = std::minmax({place(s.a), place(s.b)});
+      std::vector<Node> chain{low == place(s.a) ? s.a : s.b};
+      for (const std::uint32_t t : table_.onEdge(edge)) {
+        if (low < t && t < high) chain.push_back(Node::edge(edge, t));
+      }
+      chain.push_back(low == place(s.a) ? s.b : s.a);
+      const bool fromLow = (low == place(s.a)) != s.owner.backward;
+      if (!fromLow) std::reverse(chain.begin(), chain.end());
+      for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
+        parts.push_back(cutting::makeSegment(chain[i], chain[i + 1], s.owner.rank, s.owner.curve));
+      }
+    }
+    alongEdges_ = std::move(parts);
+  }
+
+  void nameCutEdges(RefinedMesh& result) {
+    splitAlongEdges();
+    std::vector<Segment> all = std::move(alongEdges_);
+    for (const std::vector<Segment>& segments : inFace_) {
+      all.insert(all.end(), segments.begin(), segments.end());
+    }
+    cutting::mergeSegments(all);
+    const Mesh& mesh = result.mesh;
+    EdgeData<std::optional<cutting::Owner>> owner(mesh.edgeCount());
+    for (const Segment& s : all) {
+      // Nodes and vertices have the same order: a is the tail.
+      const EdgeId e = mesh.findEdge(vertexOf(s.a), vertexOf(s.b));
+      TOILE_ASSERT(e.isValid());
+      owner[e] = s.owner;
+    }
+    result.cutEdge = EdgeData<CutEdgeId>(mesh.edgeCount());
+    for (std::size_t i = 0; i < mesh.edgeCount(); ++i) {
+      const EdgeId e(i);
+      CutEdge cutEdge{mesh.length(e), mesh.length(e), WireKind::Border, kNoCurve, false};
+      if (!mesh.isBorder(e)) {
+        if (!owner[e]) continue;
+        cutEdge.kind = kKindByRank[owner[e]->rank];
+        cutEdge.curve = owner[e]->curve;
+        cutEdge.backward = owner[e]->backward;
+      }
+      result.cutEdge[e] = CutEdgeId(result.cutEdges.size());
+      result.cutEdges.push_back(cutEdge);
+    }
+  }
+
+  const Mesh& mesh_;
+  std::span<const PlacedCurve> curves_;
+  NodeTable table_;
+  std::vector<std::vector<Segment>> inFace_;  ///< by face
+  std::vector<Segment> alongEdges_;
+  std::vector<std::size_t> firstOnEdge_;  ///< vertex number of an edge's first node
+  std::vector<std::size_t> firstInFace_;
+  std::vector<Node> nodes_;  ///< by vertex number
+};
+
+}  // namespace
+
+Result<RefinedMesh> refine(const Mesh& mesh, std::span<const PlacedCurve> curves) {
+  return Refiner(mesh, curves).run();
+}
+
+}  // namespace toile
