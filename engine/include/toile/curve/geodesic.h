@@ -10,10 +10,11 @@ namespace toile {
 
 /// Finds locally shortest paths on one mesh. Keeps its workspace between calls: one per thread.
 ///
-/// Short links (a few triangles) go by an unfolded strip and a funnel; far ones start from a
-/// shortest edge path and are straightened until every corner is at least pi - 1e-9 on both sides
-/// (or runs along the border). A path never leaves the surface; at a vertex of positive curvature
-/// it does not pass, through one of negative curvature it may.
+/// A link starts as the shortest way along mesh edges; the strip of faces beside it is unfolded and
+/// pulled tight, and led around the other side of each corner that has less than pi there, until
+/// every corner has at least pi - 1e-9 on both sides (or runs along the border). A path never
+/// leaves the surface; at a vertex of positive curvature it does not pass, through one of negative
+/// curvature it may. The link from b to a is the reverse of that from a to b, bit for bit.
 class GeodesicLinker {
  public:
   explicit GeodesicLinker(std::shared_ptr<const Mesh> mesh);
@@ -23,10 +24,12 @@ class GeodesicLinker {
 
   /// @return an open path from a to b (at least two points); CurveInvalid when a and b lie in
   ///   different components or are the same point.
-  /// @par Cost  about linear in the triangles crossed; far links O(n log n) for the first path
+  /// @par Cost  the search along edges takes the part of the mesh around both ends; straightening
+  ///   is linear in the triangles crossed for each round of it, a few for short links, dozens for
+  ///   far
   Result<SurfacePath> link(const SurfacePoint& a, const SurfacePoint& b);
   /// Links each point to the next (and the last to the first when closed) into one path; equal
-  /// neighbours are joined. `dataPointIndex` of the result's points is not kept.
+  /// neighbours are joined. CurveInvalid also for fewer than 2 (closed: 3) different points.
   Result<SurfacePath> linkAll(std::span<const SurfacePoint> points, bool closed);
 
  private:
