@@ -18,6 +18,7 @@ using cutting::LocalEdge;
 using cutting::LocalTriangle;
 using cutting::Node;
 using cutting::NodeTable;
+using cutting::Owner;
 using cutting::Segment;
 
 /// Each round hands nodes on from one face to its neighbours; a few are usual.
@@ -67,6 +68,7 @@ class Refiner {
     if (auto placed = placeSegments(); !placed) return placed.error();
     if (auto settled = settle(); !settled) return settled.error();
     numberNodes();
+    if (splitLoneCuts()) numberNodes();
     return build();
   }
 
@@ -166,7 +168,75 @@ class Refiner {
     return error;
   }
 
+  /// A cut of a single edge with both ends free could not be opened, for its two sides would run
+  /// between the same two vertices: it gets a node in its middle.
+  bool splitLoneCuts() {
+    splitAlongEdges();
+    std::vector<std::uint32_t> cutsAt(nodes_.size(), 0);
+    const auto visitCuts = [&](const std::vector<Segment>& segments, const auto& visit) {
+      for (std::size_t i = 0; i < segments.size(); ++i) {
+        if (isBoundary(kKindByRank[segments[i].owner.rank])) visit(i);
+      }
+    };
+    const auto count = [&](const std::vector<Segment>& segments) {
+      visitCuts(segments, [&](std::size_t i) {
+        ++cutsAt[vertexOf(segments[i].a).index()];
+        ++cutsAt[vertexOf(segments[i].b).index()];
+      });
+    };
+    const auto endsFreely = [&](const Node& node) {
+      return cutsAt[vertexOf(node).index()] == 1 && !isOnBorder(node);
+    };
+    std::vector<FaceId> faces;
+    for (std::size_t f = 0; f < inFace_.size(); ++f) {
+      if (!inFace_[f].empty()) faces.emplace_back(f);
+    }
+    for (const FaceId f : faces) count(inFace_[f.index()]);
+    count(alongEdges_);
+
+    std::vector<std::pair<FaceId, std::size_t>> lone;
+    for (const FaceId f : faces) {
+      visitCuts(inFace_[f.index()], [&](std::size_t i) {
+        const Segment& s = inFace_[f.index()][i];
+        if (endsFreely(s.a) && endsFreely(s.b)) lone.emplace_back(f, i);
+      });
+    }
+    std::vector<std::size_t> loneAlongEdges;
+    visitCuts(alongEdges_, [&](std::size_t i) {
+      if (endsFreely(alongEdges_[i].a) && endsFreely(alongEdges_[i].b)) loneAlongEdges.push_back(i);
+    });
+    for (const auto& [f, i] : lone) {
+      const FaceFrame frame(mesh_, f);
+      const LatticePoint a = frame.lattice(inFace_[f.index()][i].a);
+      const LatticePoint b = frame.lattice(inFace_[f.index()][i].b);
+      const Node middle = table_.insertInFace(frame, {(a.x + b.x) / 2, (a.y + b.y) / 2}, 0);
+      splitSegment(inFace_[f.index()], i, middle);
+    }
+    for (const std::size_t i : loneAlongEdges) {
+      const auto [edge, low, high] = placeOnEdge(alongEdges_[i]);
+      splitSegment(alongEdges_, i, table_.insertOnEdge(edge, (low + high) / 2, 0));
+    }
+    return !lone.empty() || !loneAlongEdges.empty();
+  }
+
+  [[nodiscard]] bool isOnBorder(const Node& node) const {
+    if (node.kind == Node::Kind::Vertex) return mesh_.isBorder(VertexId(node.element));
+    return node.kind == Node::Kind::Edge && mesh_.isBorder(EdgeId(node.element));
+  }
+
+  static void splitSegment(std::vector<Segment>& segments, std::size_t i, const Node& middle) {
+    const Segment whole = segments[i];
+    const Owner& owner = whole.owner;
+    const Node& from = owner.backward ? whole.b : whole.a;
+    const Node& to = owner.backward ? whole.a : whole.b;
+    segments[i] = cutting::makeSegment(from, middle, owner.rank, owner.curve);
+    segments.push_back(cutting::makeSegment(middle, to, owner.rank, owner.curve));
+  }
+
   void numberNodes() {
+    firstOnEdge_.clear();
+    firstInFace_.clear();
+    nodes_.clear();
     std::size_t count = mesh_.vertexCount();
     for (std::size_t e = 0; e < mesh_.edgeCount(); ++e) {
       firstOnEdge_.push_back(count);
@@ -260,44 +330,57 @@ class Refiner {
     return result;
   }
 
+  struct EdgeSpan {
+    EdgeId edge;
+    std::int64_t low = 0;  ///< parts from the tail
+    std::int64_t high = 0;
+  };
+
+  [[nodiscard]] EdgeSpan placeOnEdge(const Segment& s) const {
+    EdgeId edge;
+    for (const Node& node : {s.a, s.b}) {
+      if (node.kind == Node::Kind::Edge) edge = EdgeId(node.element);
+    }
+    if (!edge.isValid()) edge = mesh_.findEdge(VertexId(s.a.element), VertexId(s.b.element));
+    const auto place = [&](const Node& node) -> std::int64_t {
+      if (node.kind == Node::Kind::Edge) return node.p;
+      return node.element == mesh_.tail(edge).index() ? 0 : kUnit;
+    };
+    const auto [low, high] = std::minmax({place(s.a), place(s.b)});
+    return {edge, low, high};
+  }
+
   /// Splits what runs along mesh edges at every node there.
   void splitAlongEdges() {
     std::vector<Segment> parts;
     for (const Segment& s : alongEdges_) {
-      const VertexId va = vertexOf(s.a);
-      const VertexId vb = vertexOf(s.b);
-      const EdgeId edge =
-          s.a.kind == Node::Kind::Edge
-              ? EdgeId(s.a.element)
-              : (s.b.kind == Node::Kind::Edge ? EdgeId(s.b.element) : mesh_.findEdge(va, vb));
-      const auto place = [&](const Node& node) -> std::int64_t {
-        if (node.kind == Node::Kind::Edge) return node.p;
-        return node.element == mesh_.tail(edge).index() ? 0 : kUnit;
+      const auto [edge, low, high] = placeOnEdge(s);
+      const auto isLow = [edge = edge, low = low, this](const Node& node) {
+        return node.kind == Node::Kind::Edge ? node.p == low
+                                             : low == 0 && node.element == mesh_.tail(edge).index();
       };
-      const auto [low, high] = std::minmax({place(s.a), place(s.b)});
-      std::vector<Node> chain{low == place(s.a) ? s.a : s.b};
+      std::vector<Node> chain{isLow(s.a) ? s.a : s.b};
       for (const std::uint32_t t : table_.onEdge(edge)) {
         if (low < t && t < high) chain.push_back(Node::edge(edge, t));
       }
-      chain.push_back(low == place(s.a) ? s.b : s.a);
-      const bool fromLow = (low == place(s.a)) != s.owner.backward;
-      if (!fromLow) std::reverse(chain.begin(), chain.end());
+      chain.push_back(isLow(s.a) ? s.b : s.a);
+      if (isLow(s.a) == s.owner.backward) std::reverse(chain.begin(), chain.end());
       for (std::size_t i = 0; i + 1 < chain.size(); ++i) {
         parts.push_back(cutting::makeSegment(chain[i], chain[i + 1], s.owner.rank, s.owner.curve));
       }
     }
     alongEdges_ = std::move(parts);
+    cutting::mergeSegments(alongEdges_);
   }
 
   void nameCutEdges(RefinedMesh& result) {
-    splitAlongEdges();
     std::vector<Segment> all = std::move(alongEdges_);
     for (const std::vector<Segment>& segments : inFace_) {
       all.insert(all.end(), segments.begin(), segments.end());
     }
     cutting::mergeSegments(all);
     const Mesh& mesh = result.mesh;
-    EdgeData<std::optional<cutting::Owner>> owner(mesh.edgeCount());
+    EdgeData<std::optional<Owner>> owner(mesh.edgeCount());
     for (const Segment& s : all) {
       // Nodes and vertices have the same order: a is the tail.
       const EdgeId e = mesh.findEdge(vertexOf(s.a), vertexOf(s.b));

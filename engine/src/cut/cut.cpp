@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/cut/cut.h"
+
+#include <algorithm>
+#include <map>
+
+#include "cut/anchors.h"
+#include "cut/cut_findings.h"
+#include "cut/piece_builder.h"
+#include "toile/core/parallel.h"
+
+namespace toile {
+namespace {
+
+using cutting::PieceBuild;
+
+VertexData<std::uint32_t> countOpenedEdges(const RefinedMesh& refined) {
+  VertexData<std::uint32_t> count(refined.mesh.vertexCount(), 0);
+  for (std::size_t e = 0; e < refined.mesh.edgeCount(); ++e) {
+    if (!cutting::isOpened(refined, EdgeId(e))) continue;
+    ++count[refined.mesh.tail(EdgeId(e))];
+    ++count[refined.mesh.head(EdgeId(e))];
+  }
+  return count;
+}
+
+/// Pieces by the first of their records, then those without by where they lie.
+std::vector<std::size_t> orderOfPieces(const std::vector<std::vector<int>>& recordsOf) {
+  std::vector<std::size_t> order(recordsOf.size());
+  for (std::size_t i = 0; i < order.size(); ++i) order[i] = i;
+  std::stable_sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    if (recordsOf[i].empty() || recordsOf[j].empty()) return !recordsOf[i].empty();
+    return recordsOf[i].front() < recordsOf[j].front();
+  });
+  return order;
+}
+
+void nameFromRecords(Piece& piece, std::vector<int> records, const Design& design) {
+  const PieceRecord& first = design.pieces[static_cast<std::size_t>(records.front())];
+  piece.id = first.id;
+  piece.name = first.name.empty() ? first.id : first.name;
+  piece.include = std::any_of(records.begin(), records.end(), [&](int r) {
+    return design.pieces[static_cast<std::size_t>(r)].include;
+  });
+  piece.recordIndices = std::move(records);
+}
+
+/// The next "piece-<n>" that no record has.
+std::string nextFreeId(const Design& design, int& number) {
+  while (true) {
+    std::string id = "piece-" + std::to_string(++number);
+    if (std::none_of(design.pieces.begin(), design.pieces.end(),
+                     [&](const PieceRecord& r) { return r.id == id; })) {
+      return id;
+    }
+  }
+}
+
+/// Of the model's own faces, by the exact part of each that the pieces cover.
+double includedArea(const Mesh& model, const RefinedMesh& refined,
+                    const std::vector<PieceBuild>& builds) {
+  std::vector<bool> isIncluded(refined.mesh.faceCount(), false);
+  for (const PieceBuild& build : builds) {
+    if (!build.piece.include) continue;
+    for (const FaceId f : build.refinedFace) isIncluded[f.index()] = true;
+  }
+  double sum = 0;
+  for (std::size_t i = 0; i < isIncluded.size();) {
+    const FaceId source = refined.sourceFace[FaceId(i)];
+    double part = 0;  // sums of whole multiples of 2^-52, so that a whole face gives exactly 1
+    for (; i < isIncluded.size() && refined.sourceFace[FaceId(i)] == source; ++i) {
+      if (!isIncluded[i]) continue;
+      const Triangle& corners = refined.mesh.vertices(FaceId(i));
+      const auto weights = [&](std::size_t k) {
+        return barycentricIn(model, refined.onModel[corners[k]], source);
+      };
+      const Eigen::Vector3d u = weights(1) - weights(0);
+      const Eigen::Vector3d v = weights(2) - weights(0);
+      part += u[1] * v[2] - u[2] * v[1];
+    }
+    sum += part * model.area(source);
+  }
+  return sum;
+}
+
+}  // namespace
+
+std::string_view toString(WireKind kind) {
+  switch (kind) {
+    case WireKind::Seam:
+      return "seam";
+    case WireKind::Opening:
+      return "opening";
+    case WireKind::Dart:
+      return "dart";
+    case WireKind::Feature:
+      return "feature";
+    case WireKind::Elastic:
+      return "elastic";
+    case WireKind::Border:
+      return "border";
+  }
+  return "";
+}
+
+ContentHash contentHash(const Piece& piece) {
+  ContentHasher hasher;
+  hasher.add(piece.mesh->connectivityHash());
+  for (const Eigen::Vector3d& p : piece.mesh->positions()) hasher.add(p.x()).add(p.y()).add(p.z());
+  hasher.add(std::uint64_t{piece.wires.size()});
+  for (const Wire& wire : piece.wires) {
+    hasher.add(wire.kind).add(wire.curve).add(wire.part);
+    hasher.add(std::uint64_t{wire.vertices.size()});
+    for (const VertexId v : wire.vertices) hasher.add(v.index());
+    for (const double length : wire.bodyLength) hasher.add(length);
+    for (const double length : wire.targetLength) hasher.add(length);
+  }
+  return hasher.finish();
+}
+
+Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> curves,
+                      Progress* progress) {
+  const Mesh& model = *document.model->mesh;
+  if (progress != nullptr) progress->step("cut");
+  Result<RefinedMesh> refinement = refine(model, curves);
+  if (!refinement) return refinement.error();
+  if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "cutting was cancelled", {}};
+
+  CutResult result;
+  result.refined = std::make_shared<const RefinedMesh>(std::move(*refinement));
+  const RefinedMesh& refined = *result.refined;
+  const std::vector<std::vector<FaceId>> regions = cutting::findRegions(refined);
+  FaceData<std::uint32_t> regionOfFace(refined.mesh.faceCount());
+  for (std::uint32_t r = 0; r < regions.size(); ++r) {
+    for (const FaceId f : regions[r]) regionOfFace[f] = r;
+  }
+  auto recordsOf = cutting::assignRecords(document, {curves.begin(), curves.end()}, refined,
+                                          regionOfFace, regions.size());
+  if (!recordsOf) return recordsOf.error();
+
+  const VertexData<std::uint32_t> openedAt = countOpenedEdges(refined);
+  std::vector<std::optional<Result<PieceBuild>>> built(regions.size());
+  parallelFor(regions.size(), [&](std::size_t r) {
+    built[r] = cutting::buildPiece(refined, regions[r], openedAt, curves);
+  });
+  std::vector<PieceBuild> builds;
+  int number = 0;
+  for (const std::size_t r : orderOfPieces(*recordsOf)) {
+    if (!*built[r]) return built[r]->error();
+    PieceBuild& build = builds.emplace_back(std::move(**built[r]));
+    if ((*recordsOf)[r].empty()) {
+      build.piece.id = build.piece.name = nextFreeId(*document.design, number);
+    } else {
+      nameFromRecords(build.piece, std::move((*recordsOf)[r]), *document.design);
+    }
+  }
+
+  result.mates = cutting::findMates(refined, builds);
+  result.includedArea = includedArea(model, refined, builds);
+  result.findings = cutting::findNoteworthy(document, curves, refined, openedAt, builds);
+  if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "cutting was cancelled", {}};
+  for (Finding& f : cutting::findUnflattenable(*document.model, builds)) {
+    result.findings.push_back(std::move(f));
+  }
+  for (PieceBuild& build : builds) result.pieces.push_back(std::move(build.piece));
+  return result;
+}
+
+}  // namespace toile

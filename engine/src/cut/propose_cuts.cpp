@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <queue>
+
+#include "cut/topology.h"
+
+namespace toile {
+namespace {
+
+/// A point of the piece's mesh as one of the model.
+SurfacePoint onModel(const Piece& piece, const Mesh& model, const SurfacePoint& point) {
+  if (const auto* v = std::get_if<VertexId>(&point.at)) return piece.onModel[*v];
+  const FaceId f = facesOf(*piece.mesh, point).front();
+  const FaceId source = piece.sourceFace[f];
+  const Eigen::Vector3d weights = barycentricIn(*piece.mesh, point, f);
+  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
+  for (int k = 0; k < 3; ++k) {
+    const VertexId corner = piece.mesh->vertices(f)[static_cast<std::size_t>(k)];
+    sum += weights[k] * barycentricIn(model, piece.onModel[corner], source);
+  }
+  return makeSurfacePoint(model, source, sum);
+}
+
+/// The shortest way along mesh edges from the sources to the targets; empty if there is none.
+std::vector<VertexId> shortestEdgePath(const Mesh& mesh, const std::vector<VertexId>& sources,
+                                       const std::vector<bool>& isTarget) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  using Entry = std::pair<double, VertexId>;
+  VertexData<double> distance(mesh.vertexCount(), kFar);
+  VertexData<VertexId> before(mesh.vertexCount());
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> open;
+  for (const VertexId v : sources) {
+    distance[v] = 0;
+    open.emplace(0.0, v);
+  }
+  while (!open.empty()) {
+    const auto [d, v] = open.top();
+    open.pop();
+    if (d > distance[v]) continue;
+    if (isTarget[v.index()]) {
+      std::vector<VertexId> path{v};
+      while (before[path.back()].isValid()) path.push_back(before[path.back()]);
+      std::reverse(path.begin(), path.end());
+      return path;
+    }
+    for (const FaceId f : mesh.facesAround(v)) {
+      for (const VertexId next : mesh.vertices(f)) {
+        if (next == v) continue;
+        const double reached = d + (mesh.position(next) - mesh.position(v)).norm();
+        if (reached < distance[next]) {
+          distance[next] = reached;
+          before[next] = v;
+          open.emplace(reached, next);
+        }
+      }
+    }
+  }
+  return {};
+}
+
+StylingCurve makeCut(const Piece& piece, const Mesh& model, std::size_t number,
+                     const std::vector<SurfacePoint>& points) {
+  StylingCurve curve;
+  curve.id = fmt::format("autocut-{}-{}", piece.id, number);
+  curve.name = fmt::format("proposed cut {} of {}", number, piece.name);
+  curve.kind = CurveKind::Seam;
+  for (const SurfacePoint& p : points) {
+    const ModelPoint at = toModelPoint(model, onModel(piece, model, p));
+    if (curve.dataPoints.empty() || !(curve.dataPoints.back() == at))
+      curve.dataPoints.push_back(at);
+  }
+  curve.way = ShortestWay{{curve.dataPoints.front(), curve.dataPoints.back()}, {}};
+  return curve;
+}
+
+}  // namespace
+
+Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const ReferenceModel& model) {
+  std::vector<StylingCurve> cuts;
+  const PieceTopology shape = topology(piece);
+  if (shape.canLieFlat()) return cuts;
+  const auto refuse = [&](const char* why) {
+    return Error{ErrorCode::NotADisk,
+                 fmt::format("piece \"{}\" {}: no cut can be proposed, draw seams that divide it",
+                             piece.id, why),
+                 {Element::piece(piece.id)}};
+  };
+  if (shape.boundaryLoops == 0) return refuse("is a closed surface");
+  if (shape.eulerCharacteristic != 2 - static_cast<std::int64_t>(shape.boundaryLoops)) {
+    return refuse("has a handle");
+  }
+
+  // Open ends are joined one by one, always the nearest to those joined (Prim's tree).
+  const Mesh& mesh = *piece.mesh;
+  std::vector<std::vector<VertexId>> ends;
+  for (const cutting::LoopTurning& loop : cutting::measureLoops(mesh)) {
+    if (loop.isHole) continue;
+    std::vector<VertexId>& vertices = ends.emplace_back();
+    for (const HalfedgeId h : loop.halfedges) vertices.push_back(mesh.from(h));
+  }
+  std::vector<bool> isTarget(mesh.vertexCount(), false);
+  for (std::size_t i = 1; i < ends.size(); ++i) {
+    for (const VertexId v : ends[i]) isTarget[v.index()] = true;
+  }
+  std::vector<VertexId> joined = ends.front();
+  while (cuts.size() + 1 < ends.size()) {
+    const std::vector<VertexId> path = shortestEdgePath(mesh, joined, isTarget);
+    if (path.empty()) return refuse("falls apart");
+    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, {path.begin(), path.end()}));
+    for (const std::vector<VertexId>& end : ends) {
+      if (std::find(end.begin(), end.end(), path.back()) == end.end()) continue;
+      for (const VertexId v : end) isTarget[v.index()] = false;
+      joined.insert(joined.end(), end.begin(), end.end());
+    }
+  }
+  return cuts;
+}
+
+}  // namespace toile
