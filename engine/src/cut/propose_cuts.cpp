@@ -6,6 +6,7 @@
 #include <queue>
 
 #include "cut/topology.h"
+#include "toile/curve/geodesic.h"
 
 namespace toile {
 namespace {
@@ -61,6 +62,14 @@ std::vector<VertexId> shortestEdgePath(const Mesh& mesh, const std::vector<Verte
   return {};
 }
 
+/// Straightened within the opened piece, so that it crosses none of its seams.
+Result<std::vector<SurfacePoint>> straightened(GeodesicLinker& linker,
+                                               const std::vector<VertexId>& path) {
+  Result<SurfacePath> link = linker.link({path.front()}, {path.back()});
+  if (!link) return link.error();
+  return std::move(link->points);
+}
+
 StylingCurve makeCut(const Piece& piece, const Mesh& model, std::size_t number,
                      const std::vector<SurfacePoint>& points) {
   StylingCurve curve;
@@ -105,11 +114,14 @@ Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const Referenc
   for (std::size_t i = 1; i < ends.size(); ++i) {
     for (const VertexId v : ends[i]) isTarget[v.index()] = true;
   }
+  GeodesicLinker linker(piece.mesh);
   std::vector<VertexId> joined = ends.front();
   while (cuts.size() + 1 < ends.size()) {
     const std::vector<VertexId> path = shortestEdgePath(mesh, joined, isTarget);
     if (path.empty()) return refuse("falls apart");
-    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, {path.begin(), path.end()}));
+    const auto points = straightened(linker, path);
+    if (!points) return points.error().during("cut of piece \"" + piece.id + "\"");
+    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, *points));
     for (const std::vector<VertexId>& end : ends) {
       if (std::find(end.begin(), end.end(), path.back()) == end.end()) continue;
       for (const VertexId v : end) isTarget[v.index()] = false;
