@@ -92,7 +92,8 @@ TEST(FollowRecords, MovesTheAnchorToTheInmostPoint) {
     ASSERT_TRUE(point);
     const Eigen::Vector3d p = position(*strip.model().mesh, *point);
     const double depth = std::min({p.x() - low, high - p.x(), p.y(), 40 - p.y()});
-    EXPECT_GT(depth, 0.75 * std::min(20.0, (high - low) / 2)) << record.id;
+    // The middle of a face lies up to two thirds of a cell from the deepest vertex.
+    EXPECT_GT(depth, std::min(20.0, (high - low) / 2) - 6.7) << record.id;
   }
 }
 
