@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "toile/design/design.h"
+
+namespace toile {
+
+// The words that stand in design files for the values of the enumerations.
+
+inline constexpr std::array<std::pair<std::string_view, CurveKind>, 6> kCurveKindNames{{
+    {"seam", CurveKind::Seam},
+    {"opening", CurveKind::Opening},
+    {"feature", CurveKind::Feature},
+    {"elastic", CurveKind::Elastic},
+    {"dart", CurveKind::Dart},
+    {"mark", CurveKind::Mark},
+}};
+
+inline constexpr std::array<std::pair<std::string_view, SeamKind>, 3> kSeamKindNames{{
+    {"butt", SeamKind::Butt},
+    {"lapped", SeamKind::Lapped},
+    {"hem", SeamKind::Hem},
+}};
+
+inline constexpr std::array<std::pair<std::string_view, SubdivisionRule>, 3> kRuleNames{{
+    {"auto", SubdivisionRule::Auto},
+    {"uniform", SubdivisionRule::Uniform},
+    {"centripetal", SubdivisionRule::Centripetal},
+}};
+
+template <class Names, class Value>
+[[nodiscard]] constexpr std::string_view nameOf(const Names& names, Value value) {
+  for (const auto& [name, candidate] : names) {
+    if (candidate == value) return name;
+  }
+  return {};
+}
+
+}  // namespace toile

@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <random>
+#include <string>
+
+#include "toile/design/design.h"
+
+namespace toile::test {
+
+/// Designs that use every part of the file format, with awkward numbers and texts. The generator's
+/// raw output only, so that a seed means the same design everywhere.
+class RandomDesign {
+ public:
+  explicit RandomDesign(unsigned seed) : random_(seed) {}
+
+  Design design() {
+    Design design;
+    design.name = text();
+    for (std::size_t i = below(3); i > 0; --i) {
+      ModelReference model{"body-" + text(), std::nullopt, std::nullopt, unknown()};
+      if (chance()) model.unit = static_cast<FileUnit>(below(4));
+      if (chance()) model.connectivityHash = ContentHash{{bits(), bits()}};
+      design.models.push_back(model);
+    }
+    for (std::size_t i = below(5); i > 0; --i) design.curves.push_back(curve(design));
+    for (std::size_t i = below(3); i > 0; --i) design.fabrics.push_back(fabric(design));
+    for (std::size_t i = below(4); i > 0; --i) design.pieces.push_back(piece(design));
+    if (chance()) design.order = {text(), text(), text(), "2024-02-29", unknown()};
+    design.finish = {Length::mm(std::abs(number())), Length::mm(std::abs(number())),
+                     Length::mm(1e-300 + std::abs(number())), unknown()};
+    design.unknown = unknown();
+    return design;
+  }
+
+ private:
+  std::size_t below(std::size_t count) { return random_() % count; }
+  std::uint64_t bits() { return (std::uint64_t{random_()} << 32) | random_(); }
+  bool chance() { return below(2) == 0; }
+  /// 0 < t < 1, all 53 bits in use.
+  double fraction() { return static_cast<double>((bits() >> 11) | 1) * 0x1p-53; }
+  double number() {
+    static constexpr std::array kAwkward{0.0,    -0.0,    0.1,   1.0 / 3,  1e300,
+                                         5e-324, 1e22,    -1e-7, 123456.0, 0x1.fffffffffffffp-1,
+                                         1e15,   -2.5e16, 9.6e-5};
+    if (chance()) return kAwkward[below(kAwkward.size())];
+    return std::ldexp(fraction() - 0.5, static_cast<int>(below(40)) - 20);
+  }
+  std::string text() {
+    static const std::array<std::string, 6> kTexts{"",
+                                                   "front",
+                                                   "Ärmel \"links\" \\ 8\xC2\xBD",
+                                                   "two\nlines\tand \x01 a bell",
+                                                   "\xF0\x9F\xA7\xB5 thread",
+                                                   "/a~b/"};
+    return kTexts[below(kTexts.size())];
+  }
+  UnknownKeys unknown() {
+    UnknownKeys out;
+    if (below(3) == 0) out["later"] = "1.50e+3";
+    if (below(3) == 0) out["note \"x\""] = "{\"a\": [1, 2,\n   true, null], \"b\":\"\\u00e9\"}";
+    return out;
+  }
+  Eigen::Vector3d vector() { return {number(), number(), 1 + std::abs(number())}; }
+  std::string newId(const char* stem) { return stem + std::to_string(++ids_) + "_x-Y"; }
+
+  ModelPoint modelPoint() {
+    const std::size_t kind = below(3);
+    if (kind == 0) return {VertexId(below(100000))};
+    if (kind == 1) {
+      const std::size_t tail = below(1000);
+      return {ModelPoint::OnEdge{VertexId(tail), VertexId(tail + 1 + below(9)), fraction()}};
+    }
+    const double a = fraction(), b = (1 - a) * fraction();
+    return {SurfacePoint::InFace{FaceId(below(100000)), {a, b, 1 - a - b}}};
+  }
+  SectionPlane plane() {
+    SectionPlane plane;
+    plane.normal = vector();
+    if (chance()) {
+      plane.through = AtLandmark{"hip_front"};
+    } else {
+      plane.through = Length::mm(number());
+    }
+    plane.unknown = unknown();
+    return plane;
+  }
+  Place place(const Design& design) {
+    switch (below(6)) {
+      case 0:
+        return AtLandmark{"waist_front", unknown()};
+      case 1:
+        return OnModelCurve{"side_l", fraction(), unknown()};
+      case 2:
+        if (design.curves.empty()) return modelPoint();
+        return OnStylingCurve{design.curves[below(design.curves.size())].id, 1, unknown()};
+      case 3:
+        return OnSection{plane(), vector(), unknown()};
+      case 4:
+        return NearPosition{vector(), unknown()};
+      default:
+        return modelPoint();
+    }
+  }
+  std::vector<Place> places(const Design& design) {
+    std::vector<Place> out;
+    for (std::size_t i = 1 + below(4); i > 0; --i) out.push_back(place(design));
+    return out;
+  }
+  CurveWay way(const Design& design) {
+    const auto rule = static_cast<SubdivisionRule>(below(3));
+    switch (below(6)) {
+      case 0:
+        return SmoothWay{places(design), rule, unknown()};
+      case 1: {
+        ViewWay way;
+        way.view = {vector(), vector(), vector(), 1 + std::abs(number()), chance()};
+        for (std::size_t i = below(4); i > 0; --i) way.controls.emplace_back(number(), number());
+        way.rule = rule;
+        way.unknown = unknown();
+        way.unknownOfView = unknown();
+        return way;
+      }
+      case 2:
+        return AlongModelCurve{"centre_back", fraction(), 0, unknown()};
+      case 3: {
+        AlongVertices way;
+        for (std::size_t i = below(4); i > 0; --i) way.vertices.emplace_back(below(5000));
+        way.unknown = unknown();
+        return way;
+      }
+      case 4:
+        return AlongSection{plane(), unknown()};
+      default:
+        return ShortestWay{places(design), unknown()};
+    }
+  }
+  SeamSide side() {
+    SeamSide side;
+    if (chance()) side.allowance = Length::mm(std::abs(number()));
+    side.kind = static_cast<SeamKind>(below(3));
+    side.unknown = unknown();
+    return side;
+  }
+  StylingCurve curve(const Design& design) {
+    StylingCurve curve;
+    curve.id = newId("c");
+    curve.name = text();
+    curve.kind = static_cast<CurveKind>(below(6));
+    curve.closed = chance();
+    const bool hasWay = chance();
+    if (hasWay) curve.way = way(design);
+    for (std::size_t i = below(4); i > 0; --i) curve.dataPoints.push_back(modelPoint());
+    if (!design.curves.empty() && chance()) curve.mirrorOf = design.curves.front().id;
+    if (!hasWay && !curve.mirrorOf) curve.dataPoints.push_back(modelPoint());
+    if (chance()) curve.elasticRange = Ratio::of(fraction());
+    curve.left = side();
+    curve.right = side();
+    curve.unknown = unknown();
+    return curve;
+  }
+  PieceRecord piece(const Design& design) {
+    PieceRecord piece;
+    piece.id = newId("p");
+    piece.name = text();
+    piece.anchor = place(design);
+    piece.include = chance();
+    piece.count = static_cast<int>(1 + below(3));
+    if (!design.fabrics.empty() && chance()) piece.fabric = design.fabrics.front().id;
+    for (const StylingCurve& curve : design.curves) piece.boundary.push_back(curve.id);
+    piece.unknown = unknown();
+    return piece;
+  }
+  Fabric fabric(const Design&) {
+    Fabric fabric;
+    fabric.id = newId("f");
+    fabric.name = text();
+    if (chance()) fabric.colour = "#1a2B3c";
+    if (chance()) fabric.stretchAlong = Ratio::of(fraction());
+    if (chance()) fabric.stretchAcross = Ratio::of(fraction());
+    if (chance()) fabric.shear = Ratio::of(fraction());
+    fabric.thickness = Length::mm(std::abs(number()));
+    if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
+    fabric.ease = Ratio::of(fraction() - 0.5);
+    fabric.unknown = unknown();
+    return fabric;
+  }
+
+  std::mt19937 random_;
+  int ids_ = 0;
+};
+
+}  // namespace toile::test
