@@ -21,6 +21,7 @@ struct PolygonSoup {
   struct Chain {
     std::string group;
     std::vector<std::uint32_t> vertices;  ///< 0-based; closed if first == last
+    std::uint64_t line = 0;               ///< of the file, for messages; 0 = made, not read
   };
   std::vector<Eigen::Vector3d> positions;  ///< in the file's own unit
   std::vector<std::vector<std::uint32_t>> polygons;
@@ -28,6 +29,8 @@ struct PolygonSoup {
   std::map<std::string, double>
       targets;                   ///< OBJ `# target <wire> <edge> <mm>`: key "<wire> <edge>"
   std::optional<FileUnit> unit;  ///< from a `toile-units` comment
+  /// The format writes the corners of every face anew (STL): equal positions are one vertex.
+  bool repeatsPositions = false;
   std::vector<Finding> findings;
 };
 
@@ -39,7 +42,10 @@ Result<PolygonSoup> parsePolygonSoup(std::string_view content, const std::string
 
 struct ReadMeshOptions {
   std::optional<FileUnit> unit;  ///< of a file that does not say; a contradiction is an error
-  bool weld = true;              ///< join equal positions where the file format repeats them (STL)
+  /// Joins equal positions where the file repeats them for every face: STL always, other formats
+  /// when no two faces share a vertex.
+  bool weld = true;
+  bool weldAll = false;  ///< joins equal positions whatever the file does
 };
 
 /// A mesh ready for design, in mm, and what had to be done to it.
@@ -52,7 +58,9 @@ struct MeshFile {
 
 /// Reads, triangulates polygons (concave ones too), removes duplicate and index-degenerate faces
 /// and unused vertices, makes the orientation consistent (and outward when closed), saying so in
-/// findings; where nothing had to be done vertex and face order are the file's.
+/// findings; where nothing had to be done vertex and face order are the file's. Chains follow their
+/// vertices; one through a vertex without faces is left out, with a finding. Numbers of vertices
+/// and faces in messages and in `where` of errors are the file's, counted from 0.
 ///
 /// @return UnitsMissing when neither the file nor the options know the unit; NotManifold and
 ///   NotOrientable with the elements; FileFormat; FileNotFound.
