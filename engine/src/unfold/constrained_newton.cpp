@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unfold/constrained_newton.h"
+
+#include <algorithm>
+#include <cmath>
+
+// Notation: E = sum of the terms, g its gradient, H its (projected) Hessian, c the length errors,
+// J their Jacobian, lambda the multipliers, d the step, alpha its length, s the second-order
+// correction, nu the weights of |c| in the merit function E + sum nu |c|.
+namespace toile::unfolding {
+namespace {
+
+/// Weight of J^T J. With 1e4 the KKT system needs half as many solves again, with 1e2 the lengths
+/// stay inexact; larger costs digits.
+constexpr double kPenalty = 1e6;
+/// Full compression of the wires is in the matrix only where the lengths are nearly right.
+constexpr double kNearLengths = 1e-2;
+constexpr double kLengthTolerance = 1e-4;
+constexpr double kDecreaseTolerance = 1e-4;
+constexpr double kArmijo = 1e-4;
+constexpr double kShareOfWayToFlip = 0.8;
+constexpr double kStallStep = 1e-4;
+constexpr int kStallSteps = 3;
+constexpr int kMaxHalvings = 40;
+constexpr int kMaxProjections = 30;
+
+}  // namespace
+
+ConstrainedNewton::ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
+                                     const BlockPattern& pattern, SparseFactor& factor,
+                                     std::pair<std::uint32_t, std::uint32_t> hold, double areaScale)
+    : terms_(std::move(terms)),
+      lengths_(&lengths),
+      factor_(&factor),
+      hold_(hold),
+      areaScale_(areaScale),
+      matrix_(pattern) {}
+
+double ConstrainedNewton::energy(const Plane& q) const {
+  double sum = 0;
+  for (const EnergyTerm* term : terms_) sum += term->energy(q);
+  return sum;
+}
+
+bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double compression) {
+  matrix_.setZero();
+  gradient_ = Eigen::VectorXd::Zero(state.q.size());
+  for (const EnergyTerm* term : terms_) term->addDerivatives(state.q, gradient_, matrix_);
+  lengths_->addCurvature(state.lambda, compression, kPenalty, matrix_);
+  // Moving and turning cost nothing; springs hold them without changing the solution.
+  const Eigen::Vector2d line = (at(state.q, hold_.second) - at(state.q, hold_.first)).normalized();
+  matrix_.addDiagonal(hold_.first, 1, 0, 1);
+  matrix_.addDiagonal(hold_.second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
+  return factor_->factor(matrix_);
+}
+
+// (H + penalty J^T J) d = -(g + J^T (lambda + penalty c)) fulfils H d + g + J^T lambda' = 0 with
+// lambda' = lambda + penalty (J d + c) exactly; repeating with the residual r = J d + c as the new
+// right side drives J d + c to zero.
+void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda,
+                                  Plane& d) {
+  constexpr int kMaxRepeats = 8;
+  Eigen::VectorXd right = gradient_;
+  lengths_->addTransposeTimes(lambda + kPenalty * residual, right);
+  right = -right;
+  factor_->solve(right, d);
+  Plane e;
+  double before = std::numeric_limits<double>::infinity();
+  for (int i = 0; i < kMaxRepeats; ++i) {
+    const Eigen::VectorXd r = lengths_->jacobianTimes(d) + residual;
+    lambda += kPenalty * r;
+    const double size = lengths_->worst(r);
+    if (size < 1e-9 || !(size < 0.9 * before)) break;
+    before = size;
+    right.setZero();
+    lengths_->addTransposeTimes(-kPenalty * r, right);
+    factor_->solve(right, e);
+    d += e;
+  }
+}
+
+/// The shortest s, measured by the matrix, with J s = -residual.
+Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int solves) {
+  Plane s;
+  Eigen::VectorXd r = residual;
+  for (int i = 0; i < solves; ++i) {
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(gradient_.size());
+    lengths_->addTransposeTimes(-kPenalty * r, right);
+    if (i == 0) {
+      factor_->solve(right, s);
+    } else {
+      Plane e;
+      factor_->solve(right, e);
+      s += e;
+    }
+    r = lengths_->jacobianTimes(s) + residual;
+    if (lengths_->worst(r) < 1e-3 * lengths_->worst(residual)) break;
+  }
+  return s;
+}
+
+NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Progress* progress) {
+  double compression = 1;
+  int shortSteps = 0;
+  Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
+  Eigen::VectorXd c = lengths_->residual(state.q);
+  double e = energy(state.q);
+  for (; state.steps < maxSteps; ++state.steps) {
+    if (isCancelled(progress)) return NewtonEnd::Cancelled;
+    lengths_->linearise(state.q);
+    const bool near = lengths_->worst(c) < kNearLengths;
+    bool factored = assembleAndFactor(state, near ? compression : 0);
+    if (!factored && near) {
+      compression *= 0.5;
+      factored = assembleAndFactor(state, compression);
+      if (!factored) {
+        compression *= 0.5;
+        factored = assembleAndFactor(state, 0);
+      }
+    }
+    if (!factored) return NewtonEnd::Stalled;
+
+    Plane d;
+    Eigen::VectorXd lambda = state.lambda;
+    solveStep(c, lambda, d);
+    if (!d.allFinite()) return NewtonEnd::Stalled;
+
+    const Eigen::VectorXd wanted = 1.3 * lambda.cwiseAbs();
+    nu = wanted.cwiseMax(0.5 * (nu + wanted));
+    const double merit = e + nu.dot(c.cwiseAbs());
+    const double slope = gradient_.dot(d) - nu.dot(c.cwiseAbs());
+
+    double border = std::numeric_limits<double>::infinity();
+    for (const EnergyTerm* term : terms_) {
+      border = std::min(border, term->distanceToBorder(state.q, d));
+    }
+    double alpha = std::min(1.0, kShareOfWayToFlip * border);
+    // What the linearised lengths miss on the way is of second order in alpha.
+    const Eigen::VectorXd missed =
+        (lengths_->residual(state.q + alpha * d) - (1 - alpha) * c) / (alpha * alpha);
+    const Plane s = leastCorrection(missed, 2);
+
+    const double rounding = 1e-14 * std::abs(merit) + 1e-30 * areaScale_;
+    Plane trial;
+    Eigen::VectorXd trialC;
+    double trialE = 0;
+    bool accepted = false;
+    for (int halving = 0; halving < kMaxHalvings; ++halving, alpha *= 0.5) {
+      trial = state.q + alpha * d + alpha * alpha * s;
+      trialE = energy(trial);
+      if (!std::isfinite(trialE)) continue;
+      trialC = lengths_->residual(trial);
+      if (trialE + nu.dot(trialC.cwiseAbs()) <= merit + kArmijo * alpha * slope + rounding) {
+        accepted = true;
+        break;
+      }
+    }
+    if (!accepted) {
+      // No way down that doubles can show: arrived if the lengths are right.
+      return lengths_->worst(c) < kLengthTolerance ? NewtonEnd::Converged : NewtonEnd::Stalled;
+    }
+    state.q = trial;
+    state.lambda += alpha * (lambda - state.lambda);
+    c = trialC;
+    e = trialE;
+    for (EnergyTerm* term : terms_) term->moveTo(state.q);
+    compression = std::min(1.0, 1.5 * compression + 0.1);
+
+    const double error = lengths_->worst(c);
+    if (error < kLengthTolerance && alpha > 0.5 &&
+        -slope < kDecreaseTolerance * e + 1e-18 * areaScale_) {
+      ++state.steps;
+      return NewtonEnd::Converged;
+    }
+    shortSteps = alpha < kStallStep && error > kLengthTolerance ? shortSteps + 1 : 0;
+    if (shortSteps >= kStallSteps) return NewtonEnd::Stalled;
+  }
+  return NewtonEnd::StepLimit;
+}
+
+double ConstrainedNewton::project(NewtonState& state) {
+  Eigen::VectorXd c = lengths_->residual(state.q);
+  double error = lengths_->worstForUser(c);
+  double factoredAt = error;
+  int sinceFactor = 0;
+  for (int i = 0; i < kMaxProjections && error > 2e-14; ++i) {
+    // The factor and the J it was made with belong together: a new J alone diverges.
+    const Plane s = leastCorrection(c, 1);
+    const Plane trial = state.q + s;
+    const Eigen::VectorXd trialC = lengths_->residual(trial);
+    const double trialError = lengths_->worstForUser(trialC);
+    ++sinceFactor;
+    if (trialError < error && std::isfinite(energy(trial))) {
+      const bool slow = trialError > 0.7 * error;
+      state.q = trial;
+      c = trialC;
+      error = trialError;
+      if (!slow) continue;
+    }
+    if (error < 1e-12 || (sinceFactor <= 1 && !(error < factoredAt))) break;
+    lengths_->linearise(state.q);
+    if (!assembleAndFactor(state, 0)) break;
+    factoredAt = error;
+    sinceFactor = 0;
+  }
+  for (EnergyTerm* term : terms_) term->moveTo(state.q);
+  return error;
+}
+
+bool ConstrainedNewton::isStableAt(const NewtonState& state) {
+  lengths_->linearise(state.q);
+  return assembleAndFactor(state, 1);
+}
+
+}  // namespace toile::unfolding

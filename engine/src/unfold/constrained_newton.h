@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+
+#include "toile/core/progress.h"
+#include "unfold/energy_term.h"
+#include "unfold/sparse_factor.h"
+#include "unfold/wire_lengths.h"
+
+namespace toile::unfolding {
+
+/// Where a run stands, and all it needs to go on.
+struct NewtonState {
+  Plane q;
+  Eigen::VectorXd lambda;  ///< multiplier per wire edge: > 0 tension, < 0 compression
+  int steps = 0;           ///< in all
+};
+
+enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
+
+/// Minimises a sum of energy terms subject to the exact lengths of the wires.
+///
+/// Sequential quadratic programming that starts anywhere without flips. The matrix factored is
+/// H + penalty J^T J, which is positive definite exactly if H is so along the constraints, has the
+/// pattern of the mesh, and solves the full KKT system by one to three repeated solves.
+/// @see Nocedal and Wright, "Numerical Optimization", 2nd ed., 2006, chapters 17 and 18;
+///   docs/unfolding.md.
+class ConstrainedNewton {
+ public:
+  /// @param hold two vertices that fix place and direction of the plane.
+  ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
+                    const BlockPattern& pattern, SparseFactor& factor,
+                    std::pair<std::uint32_t, std::uint32_t> hold, double areaScale);
+
+  [[nodiscard]] NewtonEnd minimise(NewtonState& state, int maxSteps, const Progress* progress);
+  /// Moves q the least so that the lengths are right to rounding.
+  /// @return greatest error left, relative to max(target, 1 mm).
+  [[nodiscard]] double project(NewtonState& state);
+  /// Whether the last point is a minimum with the wires' compression fully counted; false means
+  /// that some wire would like to wave.
+  [[nodiscard]] bool isStableAt(const NewtonState& state);
+
+ private:
+  [[nodiscard]] double energy(const Plane& q) const;
+  [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double compression);
+  void solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda, Plane& d);
+  [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
+
+  std::vector<EnergyTerm*> terms_;
+  WireLengths* lengths_;
+  SparseFactor* factor_;
+  std::pair<std::uint32_t, std::uint32_t> hold_;
+  double areaScale_;
+  BlockMatrix matrix_;
+  Eigen::VectorXd gradient_;
+};
+
+}  // namespace toile::unfolding

@@ -1,0 +1,235 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unfold/problem.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace toile::unfolding {
+namespace {
+
+using std::numbers::pi;
+
+/// A face lower than this share of its longest side has no plane of its own in double precision.
+constexpr double kMinRelativeHeight = 1e-10;
+/// Corners nearer to straight than this are points of a smooth line (notes: 0.5 rad).
+constexpr double kSmoothTurn = 0.5;
+/// The span of a corner is at least this share of the mean wire edge.
+constexpr double kMinSpan = 0.05;
+constexpr std::size_t kMaxNamed = 24;
+
+double angleAt(const Eigen::Vector3d& at, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
+  const Eigen::Vector3d u = from - at;
+  const Eigen::Vector3d w = to - at;
+  return std::atan2(u.cross(w).norm(), u.dot(w));
+}
+
+Result<void> addTriangles(const Mesh& mesh, Problem& problem) {
+  std::vector<Element> flat;
+  problem.triangles.reserve(mesh.faceCount());
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& t = mesh.triangles()[f];
+    const Eigen::Vector3d side = mesh.position(t[1]) - mesh.position(t[0]);
+    const Eigen::Vector3d other = mesh.position(t[2]) - mesh.position(t[0]);
+    const double length = side.norm();
+    const double longest = std::max({length, other.norm(), (other - side).norm()});
+    const double doubleArea = side.cross(other).norm();
+    if (!(doubleArea > kMinRelativeHeight * longest * longest)) {
+      if (flat.size() < kMaxNamed) flat.push_back(Element::face(FaceId(f)));
+      continue;
+    }
+    const double x = side.dot(other) / length;
+    const double y = doubleArea / length;
+    RestTriangle rest;
+    rest.vertex = {t[0].index(), t[1].index(), t[2].index()};
+    rest.area = 0.5 * doubleArea;
+    rest.hatGradient = {Eigen::Vector2d(-y, x - length) / doubleArea,
+                        Eigen::Vector2d(y, -x) / doubleArea,
+                        Eigen::Vector2d(0, length) / doubleArea};
+    problem.triangles.push_back(rest);
+    problem.area += rest.area;
+  }
+  if (!flat.empty()) {
+    return Error{ErrorCode::DegenerateFace,
+                 fmt::format("{} face{} without area, the first is face {}; remove or repair them",
+                             flat.size() == kMaxNamed ? "many" : fmt::format("{}", flat.size()),
+                             flat.size() == 1 ? "" : "s", flat.front().index),
+                 flat};
+  }
+  return {};
+}
+
+/// Sum of (pi - angle) along a loop: 2 pi around a flat disk, -2 pi around a hole in it, about 0 at
+/// the ends of a tube.
+double turning(const Mesh& mesh, const std::vector<HalfedgeId>& loop) {
+  double sum = 0;
+  for (const HalfedgeId h : loop) {
+    const VertexId v = mesh.from(h);
+    double alpha = 0;
+    HalfedgeId out = mesh.outgoing(v);
+    while (out.isValid()) {
+      alpha += angleAt(mesh.position(v), mesh.position(mesh.to(out)),
+                       mesh.position(mesh.from(mesh.previous(out))));
+      out = mesh.opposite(mesh.previous(out));
+    }
+    sum += pi - alpha;
+  }
+  return sum;
+}
+
+Result<void> addLoops(const Mesh& mesh, Problem& problem) {
+  const std::vector<std::vector<HalfedgeId>> loops = mesh.boundaryLoops();
+  std::vector<Element> where;
+  std::vector<double> turns;
+  for (const auto& loop : loops) {
+    where.push_back(Element::vertex(mesh.from(loop.front())));
+    turns.push_back(turning(mesh, loop));
+    auto& vertices = problem.loops.emplace_back();
+    vertices.reserve(loop.size());
+    for (const HalfedgeId h : loop) vertices.push_back(mesh.from(h).index());
+  }
+  if (where.size() > kMaxNamed) where.resize(kMaxNamed);
+  if (loops.empty()) {
+    return Error{ErrorCode::NotADisk,
+                 "the surface is closed and cannot lie flat; cut it open along a line",
+                 {}};
+  }
+  if (mesh.componentCount() != 1) {
+    return Error{ErrorCode::NotADisk,
+                 fmt::format("the surface has {} separate parts; unfold them one by one",
+                             mesh.componentCount()),
+                 where};
+  }
+  if (mesh.eulerCharacteristic() != 2 - static_cast<std::int64_t>(loops.size())) {
+    return Error{ErrorCode::NotADisk,
+                 "the surface has a handle; cut it open so that it can lie flat", where};
+  }
+  const auto outer = std::max_element(turns.begin(), turns.end());
+  problem.outerLoop = static_cast<std::size_t>(outer - turns.begin());
+  for (std::size_t i = 0; i < turns.size(); ++i) {
+    if (i == problem.outerLoop || turns[i] < -pi) continue;
+    return Error{ErrorCode::NotADisk,
+                 fmt::format("the surface is a tube with {} boundary loops; add a cut that joins "
+                             "them",
+                             loops.size()),
+                 where};
+  }
+  return {};
+}
+
+/// The wire edge index of every mesh edge, kNoWire where there is none.
+Result<EdgeData<std::uint32_t>> addWireEdges(const Piece& piece, Problem& problem) {
+  const Mesh& mesh = *piece.mesh;
+  EdgeData<std::uint32_t> wireOfEdge(mesh.edgeCount(), WireEdge::kNoWire);
+  for (std::size_t w = 0; w < piece.wires.size(); ++w) {
+    const Wire& wire = piece.wires[w];
+    if (wire.vertices.size() < 2 || wire.targetLength.size() + 1 != wire.vertices.size()) {
+      return Error{ErrorCode::InvalidArgument,
+                   fmt::format("wire \"{}\" has {} vertices and {} lengths", wire.curve,
+                               wire.vertices.size(), wire.targetLength.size()),
+                   {Element::curve(wire.curve)}};
+    }
+    for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
+      const EdgeId edge = mesh.findEdge(wire.vertices[i], wire.vertices[i + 1]);
+      if (!edge.isValid()) {
+        return Error{ErrorCode::InvalidArgument,
+                     fmt::format("wire \"{}\" leaves the mesh between its vertices {} and {}",
+                                 wire.curve, i, i + 1),
+                     {Element::curve(wire.curve), Element::vertex(wire.vertices[i])}};
+      }
+      const double target = wire.targetLength[i];
+      if (!(target > 0) || !std::isfinite(target)) {
+        return Error{ErrorCode::InvalidArgument,
+                     fmt::format("edge {} of wire \"{}\" has the target length {} mm; it must be a "
+                                 "positive number",
+                                 i, wire.curve, target),
+                     {Element::curve(wire.curve), Element::edge(edge)}};
+      }
+      if (wireOfEdge[edge] != WireEdge::kNoWire) continue;  // two curves on one edge share it
+      wireOfEdge[edge] = static_cast<std::uint32_t>(problem.wireEdges.size());
+      problem.wireEdges.push_back({wire.vertices[i].index(), wire.vertices[i + 1].index(), target,
+                                   static_cast<std::uint32_t>(w), static_cast<std::uint32_t>(i),
+                                   !mesh.isBorder(edge)});
+    }
+  }
+  // A border that no wire names keeps its length on the surface.
+  for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
+    const EdgeId edge{e};
+    if (!mesh.isBorder(edge) || wireOfEdge[edge] != WireEdge::kNoWire) continue;
+    wireOfEdge[edge] = static_cast<std::uint32_t>(problem.wireEdges.size());
+    problem.wireEdges.push_back({mesh.tail(edge).index(), mesh.head(edge).index(),
+                                 mesh.length(edge), WireEdge::kNoWire, 0, false});
+  }
+  double sum = 0;
+  for (const WireEdge& edge : problem.wireEdges) sum += edge.target;
+  problem.meanWireEdge = sum / static_cast<double>(problem.wireEdges.size());
+  return wireOfEdge;
+}
+
+/// Walks the faces around every wire vertex and closes a corner at each wire edge.
+void addCorners(const Mesh& mesh, const EdgeData<std::uint32_t>& wireOfEdge, Problem& problem) {
+  const auto isWire = [&](HalfedgeId h) { return wireOfEdge[mesh.edge(h)] != WireEdge::kNoWire; };
+  const auto target = [&](HalfedgeId h) {
+    return problem.wireEdges[wireOfEdge[mesh.edge(h)]].target;
+  };
+  for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+    const VertexId v{i};
+    HalfedgeId start = mesh.outgoing(v);
+    if (!mesh.isBorder(v)) {
+      const HalfedgeId first = start;
+      while (!isWire(start)) {
+        start = mesh.opposite(mesh.previous(start));
+        if (start == first) break;
+      }
+      if (!isWire(start)) continue;
+    }
+    Corner corner;
+    corner.at = v.index();
+    HalfedgeId sectorStart = start;
+    const auto openSector = [&](HalfedgeId h) {
+      sectorStart = h;
+      corner.before = mesh.to(h).index();
+      corner.alpha = 0;
+      corner.sectorBegin = static_cast<std::uint32_t>(problem.sectorCorners.size());
+    };
+    openSector(start);
+    HalfedgeId h = start;
+    do {
+      const HalfedgeId incoming = mesh.previous(h);
+      corner.alpha +=
+          angleAt(mesh.position(v), mesh.position(mesh.to(h)), mesh.position(mesh.from(incoming)));
+      problem.sectorCorners.push_back(h.index());
+      h = mesh.opposite(incoming);
+      if (!isWire(incoming)) continue;
+      corner.after = mesh.from(incoming).index();
+      corner.sectorEnd = static_cast<std::uint32_t>(problem.sectorCorners.size());
+      if (corner.after != corner.before) {
+        const bool smooth = std::abs(corner.alpha - pi) < kSmoothTurn;
+        const double span = 0.5 * (target(sectorStart) + target(incoming));
+        corner.span =
+            smooth ? std::max(span, kMinSpan * problem.meanWireEdge) : problem.meanWireEdge;
+        problem.corners.push_back(corner);
+      }
+      if (h.isValid()) openSector(h);
+    } while (h.isValid() && h != start);
+  }
+}
+
+}  // namespace
+
+Result<Problem> makeProblem(const Piece& piece) {
+  Problem problem;
+  const Mesh& mesh = *piece.mesh;
+  problem.vertexCount = mesh.vertexCount();
+  if (Result<void> done = addLoops(mesh, problem); !done) return done.error();
+  if (Result<void> done = addTriangles(mesh, problem); !done) return done.error();
+  Result<EdgeData<std::uint32_t>> wireOfEdge = addWireEdges(piece, problem);
+  if (!wireOfEdge) return wireOfEdge.error();
+  addCorners(mesh, *wireOfEdge, problem);
+  return problem;
+}
+
+}  // namespace toile::unfolding

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+
+#include "unfold/energy_term.h"
+
+namespace toile::unfolding {
+
+/// Bending energy of the wires in the plane: stiffness * sum (theta - alpha)^2 / span.
+///
+/// theta is followed by continuity, so that it may leave (0, 2 pi).
+class WireBending : public EnergyTerm {
+ public:
+  /// @param q the start; its triangles are upright.
+  WireBending(const Problem& problem, const BlockPattern& pattern, const Plane& q);
+
+  /// mm^3; (beta sqrt(area))^3 for wires that cannot wave below the length beta sqrt(area).
+  void setStiffness(double stiffness) { stiffness_ = stiffness; }
+
+  [[nodiscard]] double energy(const Plane& q) const override;
+  void addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+                      BlockMatrix& hessian) const override;
+  void moveTo(const Plane& q) override;
+  [[nodiscard]] const std::vector<double>& theta() const { return theta_; }
+
+ private:
+  [[nodiscard]] double angle(std::size_t corner, const Plane& q) const;
+
+  const Problem* problem_;
+  double stiffness_ = 0;
+  std::vector<double> theta_;
+  /// Of the pairs at-before, at-after, before-after.
+  std::vector<std::array<BlockPattern::Place, 3>> places_;
+};
+
+/// Angles of all corners as sums of the triangles' angles: right if no triangle is flipped.
+[[nodiscard]] std::vector<double> cornerAngles(const Problem& problem, const Plane& q);
+
+}  // namespace toile::unfolding
