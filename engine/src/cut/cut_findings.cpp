@@ -14,14 +14,32 @@ double areaOf(const Mesh& mesh) {
   return sum;
 }
 
-void findRecordTrouble(const Design& design, const Piece& piece, std::vector<Finding>& findings) {
-  if (piece.recordIndices.empty()) {
-    findings.push_back({"unnamed-piece",
-                        fmt::format("{} ({:.0f} cm2) is a new piece without a record; give it a "
-                                    "name and an anchor in the design",
-                                    piece.id, areaOf(*piece.mesh) / 100),
-                        {Element::piece(piece.id)}});
+constexpr std::size_t kMaxNamedPieces = 24;
+
+/// One finding for all regions without a record: a first sketch has many.
+void findUnnamed(std::span<const PieceBuild> builds, std::vector<Finding>& findings) {
+  Finding finding{"unnamed-piece", "", {}};
+  std::size_t count = 0;
+  std::string names;
+  for (const PieceBuild& build : builds) {
+    const Piece& piece = build.piece;
+    if (!piece.recordIndices.empty()) continue;
+    if (++count > kMaxNamedPieces) continue;
+    finding.where.push_back(Element::piece(piece.id));
+    names += fmt::format("{}{} ({:.0f} cm2)", names.empty() ? "" : ", ", piece.id,
+                         areaOf(*piece.mesh) / 100);
   }
+  if (count == 0) return;
+  finding.message = fmt::format(
+      "{} without a record in the design: {}{}; give {} a name and an anchor, or leave "
+      "{} out",
+      count == 1 ? std::string("a piece") : fmt::format("{} pieces", count), names,
+      count > kMaxNamedPieces ? ", ..." : "", count == 1 ? "it" : "them",
+      count == 1 ? "it" : "them");
+  findings.push_back(std::move(finding));
+}
+
+void findTwoAnchors(const Design& design, const Piece& piece, std::vector<Finding>& findings) {
   if (piece.recordIndices.size() < 2) return;
   Finding finding{"two-anchors", "", {}};
   std::string others;
@@ -54,8 +72,9 @@ std::vector<Finding> findNoteworthy(const Document& document, std::span<const Pl
                                     std::span<const PieceBuild> builds) {
   std::vector<Finding> findings;
   for (const PieceBuild& build : builds) {
-    findRecordTrouble(*document.design, build.piece, findings);
+    findTwoAnchors(*document.design, build.piece, findings);
   }
+  findUnnamed(builds, findings);
   const Mesh& mesh = refined.mesh;
   const FaceData<std::uint32_t> pieceOf = pieceOfFace(refined, builds);
   std::vector<bool> hasEdges(curves.size(), false);

@@ -62,12 +62,44 @@ std::vector<VertexId> shortestEdgePath(const Mesh& mesh, const std::vector<Verte
   return {};
 }
 
-/// Straightened within the opened piece, so that it crosses none of its seams.
-Result<std::vector<SurfacePoint>> straightened(GeodesicLinker& linker,
-                                               const std::vector<VertexId>& path) {
-  Result<SurfacePath> link = linker.link({path.front()}, {path.back()});
-  if (!link) return link.error();
-  return std::move(link->points);
+/// A closed row of vertices: an open end of a tube.
+using End = std::vector<VertexId>;
+
+/// The locally shortest way between two ends, found from a way along edges: straightened within the
+/// opened piece, so that it crosses none of its seams, its tips moved along the ends while that
+/// makes it shorter.
+Result<SurfacePath> shortestLink(GeodesicLinker& linker, const Mesh& mesh,
+                                 const std::array<const End*, 2>& ends,
+                                 const std::vector<VertexId>& edgePath) {
+  std::array<VertexId, 2> tips{edgePath.front(), edgePath.back()};
+  Result<SurfacePath> best = linker.link({tips[0]}, {tips[1]});
+  if (!best) return best;
+  double shortest = length(mesh, *best);
+  std::size_t stepsLeft = ends[0]->size() + ends[1]->size();
+  for (bool changed = true; changed && stepsLeft > 0;) {
+    changed = false;
+    for (std::size_t tip = 0; tip < 2; ++tip) {
+      const End& end = *ends[tip];
+      const auto at =
+          static_cast<std::size_t>(std::find(end.begin(), end.end(), tips[tip]) - end.begin());
+      for (const std::size_t step : {std::size_t{1}, end.size() - 1}) {
+        std::array<VertexId, 2> moved = tips;
+        moved[tip] = end[(at + step) % end.size()];
+        Result<SurfacePath> link = linker.link({moved[0]}, {moved[1]});
+        if (!link) continue;
+        const double reached = length(mesh, *link);
+        if (reached >= shortest * (1 - 1e-9)) continue;
+        tips = moved;
+        shortest = reached;
+        best = std::move(link);
+        changed = true;
+        --stepsLeft;
+        break;
+      }
+      if (stepsLeft == 0) break;
+    }
+  }
+  return best;
 }
 
 StylingCurve makeCut(const Piece& piece, const Mesh& model, std::size_t number,
@@ -104,11 +136,15 @@ Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const Referenc
 
   // Open ends are joined one by one, always the nearest to those joined (Prim's tree).
   const Mesh& mesh = *piece.mesh;
-  std::vector<std::vector<VertexId>> ends;
+  std::vector<End> ends;
+  std::vector<std::size_t> endOfVertex(mesh.vertexCount(), 0);
   for (const cutting::LoopTurning& loop : cutting::measureLoops(mesh)) {
     if (loop.isHole) continue;
-    std::vector<VertexId>& vertices = ends.emplace_back();
-    for (const HalfedgeId h : loop.halfedges) vertices.push_back(mesh.from(h));
+    End& end = ends.emplace_back();
+    for (const HalfedgeId h : loop.halfedges) {
+      end.push_back(mesh.from(h));
+      endOfVertex[mesh.from(h).index()] = ends.size() - 1;
+    }
   }
   std::vector<bool> isTarget(mesh.vertexCount(), false);
   for (std::size_t i = 1; i < ends.size(); ++i) {
@@ -119,14 +155,13 @@ Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const Referenc
   while (cuts.size() + 1 < ends.size()) {
     const std::vector<VertexId> path = shortestEdgePath(mesh, joined, isTarget);
     if (path.empty()) return refuse("falls apart");
-    const auto points = straightened(linker, path);
-    if (!points) return points.error().during("cut of piece \"" + piece.id + "\"");
-    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, *points));
-    for (const std::vector<VertexId>& end : ends) {
-      if (std::find(end.begin(), end.end(), path.back()) == end.end()) continue;
-      for (const VertexId v : end) isTarget[v.index()] = false;
-      joined.insert(joined.end(), end.begin(), end.end());
-    }
+    const End& from = ends[endOfVertex[path.front().index()]];
+    const End& to = ends[endOfVertex[path.back().index()]];
+    const auto link = shortestLink(linker, mesh, {&from, &to}, path);
+    if (!link) return link.error().during("cut of piece \"" + piece.id + "\"");
+    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, link->points));
+    for (const VertexId v : to) isTarget[v.index()] = false;
+    joined.insert(joined.end(), to.begin(), to.end());
   }
   return cuts;
 }

@@ -173,7 +173,7 @@ TEST(Cut, DividesASphereInTwo) {
   ASSERT_EQ(result->mates.size(), 1U);
   EXPECT_NE(result->mates[0].pieceA, result->mates[0].pieceB);
   EXPECT_NEAR(result->includedArea, areaOf(mesh), 1e-12 * areaOf(mesh));
-  EXPECT_THAT(codes(*result), ElementsAre("unnamed-piece", "unnamed-piece"));
+  EXPECT_THAT(codes(*result), ElementsAre("unnamed-piece"));
 }
 
 // One horizontal and two vertical planes through a cube: eight corners of it, each with three
@@ -243,6 +243,65 @@ TEST(Cut, SaysThatATubeNeedsACutAndProposesTheShortest) {
   const auto opened = cut(document, std::vector{drawn((*cuts)[0].id, CurveKind::Seam, path)});
   ASSERT_TRUE(opened) << opened.error();
   EXPECT_TRUE(topology(opened->pieces.at(0)).isDisk());
+}
+
+// A tube that is cut off obliquely: the shortest cut is the side where it is shortest, straight
+// along the axis, wherever the diagonals of the mesh lead.
+TEST(Cut, ProposesACutWhereATubeIsShortest) {
+  const Mesh straight = test::cylinder(50, 200, 40, 12);
+  std::vector<Eigen::Vector3d> positions = straight.positions();
+  for (Eigen::Vector3d& p : positions) p.z() *= 1 + 0.4 * p.x() / 50 - 0.1 * p.y() / 50;
+  const Mesh mesh = straight.withPositions(positions);
+  const Document document = documentOf(mesh);
+  const auto result = cut(document, {});
+  ASSERT_TRUE(result) << result.error();
+  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  ASSERT_TRUE(cuts) << cuts.error();
+  ASSERT_EQ(cuts->size(), 1U);
+  std::vector<SurfacePoint> points;
+  for (const ModelPoint& p : (*cuts)[0].dataPoints) points.push_back(*toSurfacePoint(mesh, p));
+  // The shortest of the mesh's 40 lines along the axis.
+  double shortest = 1e300;
+  for (std::size_t i = 0; i < 40; ++i) {
+    const double z = mesh.position(VertexId(12 * 40 + i)).z();
+    shortest = std::min(shortest, z);
+  }
+  EXPECT_LE(length(mesh, test::pathThrough(mesh, points)), shortest + 1e-9);
+}
+
+// A pair of trousers without seams has three open ends: two cuts make it lie flat.
+TEST(Cut, ProposesTwoCutsForTrousers) {
+  const Mesh mesh = test::trousers();
+  const Document document = documentOf(mesh);
+  const auto result = cut(document, {});
+  ASSERT_TRUE(result) << result.error();
+  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  ASSERT_TRUE(cuts) << cuts.error();
+  ASSERT_EQ(cuts->size(), 2U);
+  std::vector<PlacedCurve> curves;
+  for (const StylingCurve& c : *cuts) {
+    std::vector<SurfacePoint> points;
+    for (const ModelPoint& p : c.dataPoints) points.push_back(*toSurfacePoint(mesh, p));
+    curves.push_back(drawn(c.id, c.kind, test::pathThrough(mesh, points)));
+  }
+  const auto opened = cut(document, curves);
+  ASSERT_TRUE(opened) << opened.error();
+  expectSoundWires(*opened);
+  ASSERT_EQ(opened->pieces.size(), 1U);
+  EXPECT_TRUE(topology(opened->pieces[0]).isDisk());
+}
+
+TEST(Cut, RefusesToProposeCutsForHandlesAndClosedSurfaces) {
+  for (const Mesh& mesh : {test::torus(60, 20, 16, 9), test::icosphere(50, 1)}) {
+    const Document document = documentOf(mesh);
+    const auto result = cut(document, {});
+    ASSERT_TRUE(result) << result.error();
+    EXPECT_EQ(codes(*result).back(), "closed-without-cut");
+    const auto cuts = proposeCuts(result->pieces[0], *document.model);
+    ASSERT_FALSE(cuts);
+    EXPECT_EQ(cuts.error().code, ErrorCode::NotADisk);
+    EXPECT_EQ(cuts.error().where.at(0), Element::piece("piece-1"));
+  }
 }
 
 TEST(Cut, KeepsAnArmholeAsAHole) {
@@ -425,7 +484,7 @@ TEST(Cut, SaysWhichCurveOthersHide) {
       cut(documentOf(mesh), std::vector{drawn("s", CurveKind::Seam, section.at(0)),
                                         drawn("f", CurveKind::Feature, section.at(0))});
   ASSERT_TRUE(result) << result.error();
-  EXPECT_THAT(codes(*result), ElementsAre("unnamed-piece", "unnamed-piece", "hidden-curve"));
+  EXPECT_THAT(codes(*result), ElementsAre("unnamed-piece", "hidden-curve"));
   EXPECT_EQ(result->findings.back().where.at(0), Element::curve("f"));
 }
 

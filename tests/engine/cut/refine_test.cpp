@@ -265,5 +265,26 @@ TEST(Refine, SurvivesRandomCurves) {
             << largestDistance << " mm\n";
 }
 
+// Scans have faces without area and parts smaller than the merge distance: cutting them is exact in
+// whole numbers all the same.
+TEST(Refine, SurvivesFacesWithoutArea) {
+  const auto scaled = [](const Mesh& mesh, double x, double y, double z) {
+    return test::transformed(mesh, Eigen::Vector3d(x, y, z).asDiagonal(), Eigen::Vector3d::Zero());
+  };
+  const Mesh sphere = test::icosphere(50, 2);
+  const Mesh cloth = test::irregularGrid(6, 5);
+  const std::array meshes{scaled(sphere, 1e-3, 1e-3, 1e-3), scaled(sphere, 1, 1, 1e-4),
+                          scaled(cloth, 1, 0, 1),           scaled(cloth, 1, 3e-3, 1),
+                          scaled(sphere, 1, 0, 0),          scaled(sphere, 0, 0, 0)};
+  std::mt19937_64 random(11);
+  for (int trial = 0; trial < 120; ++trial) {
+    const Mesh& mesh = meshes[static_cast<std::size_t>(trial) % meshes.size()];
+    const auto refined = refine(mesh, test::randomCurves(mesh, 1 + trial % 9, random));
+    ASSERT_TRUE(refined) << refined.error() << " in trial " << trial;
+    expectRefines(mesh, *refined);
+    if (testing::Test::HasFatalFailure()) FAIL() << "in trial " << trial;
+  }
+}
+
 }  // namespace
 }  // namespace toile
