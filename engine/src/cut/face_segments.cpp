@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 
 namespace toile::cutting {
 namespace {
@@ -78,6 +79,27 @@ LatticePoint crossing(const PlacedSegment& s, const PlacedSegment& t) {
   return {between(s.a.x, s.b.x), between(s.a.y, s.b.y)};
 }
 
+/// Pairs of crossing segments in order; found by sweeping along x.
+std::vector<std::pair<std::size_t, std::size_t>> crossingPairs(
+    const std::vector<PlacedSegment>& segments) {
+  const auto low = [&](std::size_t i) { return std::min(segments[i].a.x, segments[i].b.x); };
+  std::vector<std::size_t> order(segments.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t i, std::size_t j) {
+    return std::pair{low(i), i} < std::pair{low(j), j};
+  });
+  std::vector<std::pair<std::size_t, std::size_t>> pairs;
+  for (std::size_t i = 0; i < order.size(); ++i) {
+    const PlacedSegment& s = segments[order[i]];
+    const std::int64_t high = std::max(s.a.x, s.b.x);
+    for (std::size_t j = i + 1; j < order.size() && low(order[j]) <= high; ++j) {
+      if (cross(s, segments[order[j]])) pairs.emplace_back(std::minmax({order[i], order[j]}));
+    }
+  }
+  std::sort(pairs.begin(), pairs.end());
+  return pairs;
+}
+
 /// Replaces each segment that got nodes by the chain through them, in their order along it.
 void splitAt(const FaceFrame& frame, std::vector<Segment>& segments,
              std::vector<std::vector<Node>>& nodesOfSegment) {
@@ -151,6 +173,9 @@ bool settleSegments(const FaceFrame& frame, NodeTable& table, std::vector<Segmen
       const LatticePoint lattice = frame.lattice(node);
       nodes.push_back({node, lattice, frame.flat(lattice)});
     }
+    std::sort(nodes.begin(), nodes.end(), [](const PlacedNode& l, const PlacedNode& r) {
+      return l.lattice.x != r.lattice.x ? l.lattice.x < r.lattice.x : l.lattice.y < r.lattice.y;
+    });
     std::vector<PlacedSegment> placed;
     for (const Segment& s : segments) {
       const LatticePoint a = frame.lattice(s.a);
@@ -165,18 +190,21 @@ bool settleSegments(const FaceFrame& frame, NodeTable& table, std::vector<Segmen
       nodesOfSegment[i].push_back(node);
       changed = true;
     };
+    const std::int64_t reach = frame.reach(tolerance);
     for (std::size_t i = 0; i < segments.size(); ++i) {
-      for (const PlacedNode& n : nodes) {
-        if (n.node != segments[i].a && n.node != segments[i].b &&
-            leadsThrough(placed[i], n, tolerance / 2)) {
-          lead(i, n.node);
+      const auto [low, high] = std::minmax({placed[i].a.x, placed[i].b.x});
+      auto n = std::lower_bound(
+          nodes.begin(), nodes.end(), low - reach,
+          [](const PlacedNode& node, std::int64_t x) { return node.lattice.x < x; });
+      for (; n != nodes.end() && n->lattice.x <= high + reach; ++n) {
+        if (n->node != segments[i].a && n->node != segments[i].b &&
+            leadsThrough(placed[i], *n, tolerance / 2)) {
+          lead(i, n->node);
         }
       }
     }
-    const std::size_t crossable = changed ? 0 : segments.size();  // once nothing else is to do
-    for (std::size_t i = 0; i < crossable; ++i) {
-      for (std::size_t j = i + 1; j < crossable; ++j) {
-        if (!cross(placed[i], placed[j])) continue;
+    if (!changed) {
+      for (const auto& [i, j] : crossingPairs(placed)) {
         const Node node = table.insertInFace(frame, crossing(placed[i], placed[j]), tolerance);
         lead(i, node);
         lead(j, node);

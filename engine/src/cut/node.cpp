@@ -78,6 +78,13 @@ Eigen::Vector2d FaceFrame::flat(const LatticePoint& point) const {
   return (static_cast<double>(point.x) * second_ + static_cast<double>(point.y) * third_) / kParts;
 }
 
+std::int64_t FaceFrame::reach(double distance) const {
+  // x goes from 0 to kUnit over the height of the second corner above the opposite side.
+  const double height = second_.x() * third_.y() / third_.norm();
+  if (!(distance < height)) return kUnit;
+  return static_cast<std::int64_t>(distance / height * kParts) + 2;
+}
+
 int FaceFrame::commonSide(const LatticePoint& a, const LatticePoint& b) const {
   if (a.y == 0 && b.y == 0) return 0;
   if (a.x + a.y == kUnit && b.x + b.y == kUnit) return 1;

@@ -73,6 +73,8 @@ class FaceFrame {
   }
   /// Parts from corner `side` towards the next corner. Precondition: the point lies on that side.
   [[nodiscard]] static std::int64_t alongSide(int side, const LatticePoint& point);
+  /// How far two points that are so many mm apart differ in LatticePoint::x at most.
+  [[nodiscard]] std::int64_t reach(double distance) const;
   /// mm^2 of the isometric plane per unit of orientation().
   [[nodiscard]] double areaScale() const { return second_.x() * third_.y() / (kParts * kParts); }
   [[nodiscard]] Eigen::Vector2d flatCorner(int k) const {

@@ -44,14 +44,21 @@ Node NodeTable::insertInFace(const FaceFrame& frame, LatticePoint at, double tol
   const Eigen::Vector2d place = frame.flat(at);
   std::optional<Node> nearest;
   double nearestDistance = tolerance;
-  for (const Node& node : nodesOf(frame)) {
+  const auto consider = [&](const Node& node) {
     const LatticePoint lattice = frame.lattice(node);
-    if (lattice == at) return node;
-    const double distance = (frame.flat(lattice) - place).norm();
+    const double distance = lattice == at ? -1.0 : (frame.flat(lattice) - place).norm();
     if (distance < nearestDistance) {
       nearest = node;
       nearestDistance = distance;
     }
+  };
+  for (const Node& node : nodesAround(frame)) consider(node);
+  auto& inside = inFace_[frame.face().index()];
+  const std::int64_t reach = frame.reach(tolerance);
+  const auto low = static_cast<std::uint32_t>(std::max<std::int64_t>(at.x - reach, 0));
+  for (auto in = std::lower_bound(inside.begin(), inside.end(), std::pair{low, 0U});
+       in != inside.end() && in->first <= at.x + reach; ++in) {
+    consider(Node::face(frame.face(), in->first, in->second));
   }
   if (nearest) return *nearest;
 
@@ -76,14 +83,13 @@ Node NodeTable::insertInFace(const FaceFrame& frame, LatticePoint at, double tol
     const std::int64_t t = std::llround(fraction * static_cast<double>(kUnit));
     return insertOnEdge(frame.edge(nearestSide), frame.alongEdge(nearestSide, t), tolerance);
   }
-  auto& nodes = inFace_[frame.face().index()];
   const Node node = Node::face(frame.face(), at.x, at.y);
-  nodes.insert(std::lower_bound(nodes.begin(), nodes.end(), std::pair{node.p, node.q}),
-               {node.p, node.q});
+  inside.insert(std::lower_bound(inside.begin(), inside.end(), std::pair{node.p, node.q}),
+                {node.p, node.q});
   return node;
 }
 
-std::vector<Node> NodeTable::nodesOf(const FaceFrame& frame) const {
+std::vector<Node> NodeTable::nodesAround(const FaceFrame& frame) const {
   std::vector<Node> nodes;
   for (int k = 0; k < 3; ++k) nodes.push_back(Node::vertex(frame.corner(k)));
   for (int k = 0; k < 3; ++k) {
@@ -91,6 +97,11 @@ std::vector<Node> NodeTable::nodesOf(const FaceFrame& frame) const {
       nodes.push_back(Node::edge(frame.edge(k), t));
     }
   }
+  return nodes;
+}
+
+std::vector<Node> NodeTable::nodesOf(const FaceFrame& frame) const {
+  std::vector<Node> nodes = nodesAround(frame);
   for (const auto& [p, q] : inFace(frame.face())) nodes.push_back(Node::face(frame.face(), p, q));
   return nodes;
 }

@@ -35,6 +35,9 @@ class NodeTable {
   std::vector<EdgeId> takeChangedEdges();
 
  private:
+  /// Corners and nodes on the sides.
+  [[nodiscard]] std::vector<Node> nodesAround(const FaceFrame& frame) const;
+
   const Mesh& mesh_;
   std::vector<std::vector<std::uint32_t>> onEdge_;
   std::vector<std::vector<std::pair<std::uint32_t, std::uint32_t>>> inFace_;
