@@ -6,6 +6,7 @@
 
 #include "curve/strip.h"
 #include "curve/vertex_route.h"
+#include "curve/window_search.h"
 
 namespace toile {
 
@@ -13,6 +14,9 @@ namespace {
 
 /// Rounds of straightening; each one makes the path shorter. Far links take some dozens.
 constexpr int kMaxRounds = 20000;
+/// Windows that the search for a shorter way may follow: enough for nearly all links of a few
+/// triangles, and a small part of the cost of a far one.
+constexpr std::size_t kMaxWindows = 300;
 
 /// A fixed order of surface points, so that a link and its reverse are worked out the same way.
 bool isBefore(const SurfacePoint& a, const SurfacePoint& b) {
@@ -38,15 +42,29 @@ std::string describe(const Mesh& mesh, const SurfacePoint& point) {
 
 struct GeodesicLinker::Workspace {
   explicit Workspace(std::shared_ptr<const Mesh> m)
-      : mesh(std::move(m)), geometry(*mesh), route(*mesh, geometry), strip(*mesh, geometry) {}
+      : mesh(std::move(m)),
+        geometry(*mesh),
+        route(*mesh, geometry),
+        strip(*mesh, geometry),
+        search(*mesh, geometry) {}
 
   Result<SurfacePath> link(const SurfacePoint& a, const SurfacePoint& b);
+  void straighten(const SurfacePoint& a, const SurfacePoint& b,
+                  const std::vector<HalfedgeId>& crossings);
 
   std::shared_ptr<const Mesh> mesh;
   detail::FaceGeometry geometry;
   detail::VertexRoute route;
   detail::Strip strip;
+  detail::WindowSearch search;
 };
+
+void GeodesicLinker::Workspace::straighten(const SurfacePoint& a, const SurfacePoint& b,
+                                           const std::vector<HalfedgeId>& crossings) {
+  strip.set(a, b, crossings);
+  strip.pullTight();
+  for (int round = 0; round < kMaxRounds && strip.rerouteCorners() > 0; ++round) strip.pullTight();
+}
 
 Result<SurfacePath> GeodesicLinker::Workspace::link(const SurfacePoint& a, const SurfacePoint& b) {
   if (const FaceId face = commonFace(*mesh, a, b); face.isValid()) {
@@ -60,10 +78,13 @@ Result<SurfacePath> GeodesicLinker::Workspace::link(const SurfacePoint& a, const
                              describe(*mesh, a), describe(*mesh, b)),
                  {}};
   }
-  strip.set(a, b, *row);
-  strip.pullTight();
-  for (int round = 0; round < kMaxRounds && strip.rerouteCorners() > 0; ++round) strip.pullTight();
-  return strip.path();
+  straighten(a, b, *row);
+  const double straightened = strip.length();
+  const auto shorter = search.findShorter(a, b, straightened, kMaxWindows);
+  if (!shorter) return strip.path();
+  SurfacePath known = strip.path();
+  straighten(a, b, shorter->crossings);
+  return strip.length() < straightened ? strip.path() : known;
 }
 
 GeodesicLinker::GeodesicLinker(std::shared_ptr<const Mesh> mesh)

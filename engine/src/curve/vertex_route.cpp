@@ -33,47 +33,40 @@ std::vector<FaceId> commonFaces(const Mesh& mesh, const SurfacePoint& a, const S
   return faces;
 }
 
-/// Turns around a vertex from one face to another.
-class Turn {
- public:
-  Turn(const Mesh& mesh, FaceGeometry& geometry, VertexId vertex, FaceId from,
-       const std::vector<FaceId>& goals)
-      : mesh_(mesh), geometry_(geometry), vertex_(vertex) {
-    const double leftAngle = turn(from, goals, true, left_);
-    const double rightAngle = turn(from, goals, false, right_);
-    isLeft_ = leftAngle <= rightAngle;
+/// Turns around a vertex in one direction until one of the goals is reached.
+/// @return the angle of the faces passed on the way, infinite when a border bars it.
+double turn(const Mesh& mesh, FaceGeometry& geometry, VertexId vertex, FaceId from,
+            std::span<const FaceId> goals, bool counterClockwise, std::vector<HalfedgeId>& row) {
+  int side = 0;
+  while (mesh.vertices(from)[static_cast<std::size_t>(side)] != vertex) ++side;
+  HalfedgeId leaving = mesh.halfedge(from, side);  // leaves the vertex
+  double angle = 0;
+  bool isFirst = true;
+  while (std::find(goals.begin(), goals.end(), mesh.face(leaving)) == goals.end()) {
+    if (!isFirst) angle += geometry.cornerAngle(leaving);
+    isFirst = false;
+    const HalfedgeId h = counterClockwise ? mesh.previous(leaving) : leaving;
+    const HalfedgeId entered = mesh.opposite(h);
+    if (!entered.isValid()) return kInfinity;
+    row.push_back(h);
+    leaving = counterClockwise ? entered : mesh.next(entered);
   }
-  [[nodiscard]] const std::vector<HalfedgeId>& crossings() const {
-    return isLeft_ ? left_ : right_;
-  }
-
- private:
-  /// @return the angle of the faces passed on the way, infinite when a border bars it.
-  double turn(FaceId from, const std::vector<FaceId>& goals, bool counterClockwise,
-              std::vector<HalfedgeId>& row) {
-    int side = 0;
-    while (mesh_.vertices(from)[static_cast<std::size_t>(side)] != vertex_) ++side;
-    HalfedgeId leaving = mesh_.halfedge(from, side);  // leaves the vertex
-    double angle = 0;
-    while (std::find(goals.begin(), goals.end(), mesh_.face(leaving)) == goals.end()) {
-      if (!row.empty()) angle += geometry_.cornerAngle(leaving);
-      const HalfedgeId h = counterClockwise ? mesh_.previous(leaving) : leaving;
-      const HalfedgeId entered = mesh_.opposite(h);
-      if (!entered.isValid()) return kInfinity;
-      row.push_back(h);
-      leaving = counterClockwise ? entered : mesh_.next(entered);
-    }
-    return angle;
-  }
-
-  const Mesh& mesh_;
-  FaceGeometry& geometry_;
-  VertexId vertex_;
-  std::vector<HalfedgeId> left_, right_;
-  bool isLeft_ = true;
-};
+  return angle;
+}
 
 }  // namespace
+
+void appendTurn(const Mesh& mesh, FaceGeometry& geometry, VertexId vertex, FaceId from,
+                std::span<const FaceId> goals, std::vector<HalfedgeId>& row) {
+  if (std::find(goals.begin(), goals.end(), from) != goals.end()) return;
+  const std::size_t before = row.size();
+  const double leftAngle = turn(mesh, geometry, vertex, from, goals, true, row);
+  std::vector<HalfedgeId> right;
+  const double rightAngle = turn(mesh, geometry, vertex, from, goals, false, right);
+  if (leftAngle <= rightAngle) return;
+  row.resize(before);
+  row.insert(row.end(), right.begin(), right.end());
+}
 
 VertexRoute::VertexRoute(const Mesh& mesh, FaceGeometry& geometry)
     : mesh_(mesh), geometry_(geometry), nodes_(mesh.vertexCount()) {}
@@ -146,9 +139,9 @@ std::optional<std::vector<HalfedgeId>> VertexRoute::find(const SurfacePoint& sta
     const SurfacePoint& next = i + 1 < route.size() ? SurfacePoint{route[i + 1]} : end;
     const std::vector<FaceId> goals = commonFaces(mesh_, here, next);
     if (!face.isValid()) face = commonFaces(mesh_, start, here).front();
-    const Turn turn(mesh_, geometry_, route[i], face, goals);
-    row.insert(row.end(), turn.crossings().begin(), turn.crossings().end());
-    if (!turn.crossings().empty()) face = mesh_.face(mesh_.opposite(turn.crossings().back()));
+    const std::size_t before = row.size();
+    appendTurn(mesh_, geometry_, route[i], face, goals, row);
+    if (row.size() > before) face = mesh_.face(mesh_.opposite(row.back()));
   }
   return row;
 }

@@ -3,12 +3,19 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "curve/face_geometry.h"
 #include "toile/mesh/surface_point.h"
 
 namespace toile::detail {
+
+/// Appends the halfedges crossed when turning around a vertex from a face to the first of the
+/// goals, the way round that passes less angle. Precondition: all of them are faces around the
+/// vertex.
+void appendTurn(const Mesh& mesh, FaceGeometry& geometry, VertexId vertex, FaceId from,
+                std::span<const FaceId> goals, std::vector<HalfedgeId>& row);
 
 /// Finds a first way between two surface points along mesh edges: the shortest one, by A* with the
 /// straight distance as bound. Keeps its arrays between calls.

@@ -11,6 +11,8 @@
 #include "support/meshes.h"
 #include "support/result_printing.h"
 #include "support/surface_random.h"
+#include "support/test_data.h"
+#include "toile/mesh/mesh_file.h"
 
 namespace toile {
 namespace {
@@ -198,6 +200,13 @@ TEST(Geodesic, IsLocallyShortestForAnyPair) {
   expectLocallyShortest(test::saddle(24, 10, 0.02), 1000);
   expectLocallyShortest(test::trousers(), 1000);
   expectLocallyShortest(test::coneStrip(10, 150, 24, 20, 0.5), 1000);
+}
+
+TEST(Geodesic, IsLocallyShortestOnABody) {
+  TOILE_TEST_DATA_OR_SKIP(file, "bodies/female_average.ply");
+  const Result<MeshFile> body = readMesh(file, {.unit = FileUnit::Millimetre});
+  ASSERT_TRUE(body) << body.error();
+  expectLocallyShortest(body->mesh, 1000);
 }
 
 // Tetrahedra and double triangles: faces that share two edges, vertices with two or three faces.

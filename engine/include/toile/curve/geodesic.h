@@ -14,7 +14,8 @@ namespace toile {
 /// pulled tight, and led around the other side of each corner that has less than pi there, until
 /// every corner has at least pi - 1e-9 on both sides (or runs along the border). A path never
 /// leaves the surface; at a vertex of positive curvature it does not pass, through one of negative
-/// curvature it may. The link from b to a is the reverse of that from a to b, bit for bit.
+/// curvature it may. Between points a few triangles apart it is the shortest path of all, as far as
+/// a bounded search tells. The link from b to a is the reverse of that from a to b, bit for bit.
 class GeodesicLinker {
  public:
   explicit GeodesicLinker(std::shared_ptr<const Mesh> mesh);
