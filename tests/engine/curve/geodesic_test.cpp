@@ -203,8 +203,8 @@ TEST(Geodesic, IsLocallyShortestForAnyPair) {
 }
 
 TEST(Geodesic, IsLocallyShortestOnABody) {
-  TOILE_TEST_DATA_OR_SKIP(file, "bodies/female_average.ply");
-  const Result<MeshFile> body = readMesh(file, {.unit = FileUnit::Millimetre});
+  TOILE_TEST_DATA_OR_SKIP(path, "bodies/female_average.ply");
+  const Result<MeshFile> body = readMesh(path, {.unit = FileUnit::Millimetre});
   ASSERT_TRUE(body) << body.error();
   expectLocallyShortest(body->mesh, 1000);
 }
