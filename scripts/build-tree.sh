@@ -34,6 +34,8 @@ configure_tree() { # source preset folder tests(ON|OFF)
 build_tree() { # source preset folder tests(ON|OFF) target...
   local source=$1 preset=$2 folder=$3 tests=$4
   shift 4
+  # So that a second checkout, elsewhere, finds in ccache what the first one compiled.
+  export CCACHE_BASEDIR=${CCACHE_BASEDIR:-$source}
   mkdir -p "$folder" 2>/dev/null || {
     echo "Cannot write into $source; put the source tree where you may write." >&2
     return 1
