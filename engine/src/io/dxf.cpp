@@ -1,0 +1,279 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/io/dxf.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include "finish/polygon.h"
+#include "io/ascii.h"
+#include "io/dxf_text.h"
+#include "io/file_date.h"
+#include "toile/core/version.h"
+
+namespace toile {
+namespace {
+
+// Layers of ASTM D6673-10.
+enum Layer : int {
+  kBoundary = 1,
+  kTurnPoint = 2,
+  kCurvePoint = 3,
+  kNotch = 4,
+  kGrain = 7,
+  kInternal = 8,
+  kCutout = 11,
+  kSew = 14,
+  kAnnotation = 15,
+  kBoundaryCurve = 84,
+  kInternalCurve = 85,
+  kCutoutCurve = 86,
+  kSewCurve = 87
+};
+
+constexpr std::size_t kMostNameChars = 20;  // AccuMark cuts names there
+constexpr std::size_t kMostSizeChars = 10;  // name, '_' and size fit the 31 of R12
+constexpr double kTextHeightMm = 4;
+constexpr double kLineFeedMm = 6;
+constexpr double kEdgeTextHeightMm = 3.5;
+
+/// A vertex of a written line.
+struct LinePoint {
+  DxfPoint at;
+  bool corner = false;
+};
+
+/// Clockwise, the first point first.
+std::vector<LinePoint> clockwise(const Outline& outline, const Placement& placement) {
+  std::vector<LinePoint> points;
+  for (const OutlinePoint& p : outline)
+    points.push_back({toDxf(placement.apply(p.position)), p.corner});
+  // A placement never mirrors: the sign of the area is that of the piece's own frame.
+  if (signedArea(positions(outline)) > 0 && points.size() > 1)
+    std::reverse(points.begin() + 1, points.end());
+  return points;
+}
+
+std::vector<DxfPoint> coordinates(const std::vector<LinePoint>& points) {
+  std::vector<DxfPoint> list;
+  list.reserve(points.size());
+  for (const LinePoint& p : points) list.push_back(p.at);
+  return list;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Pattern& pattern) : pattern_(pattern), design_(*pattern.document.design) {}
+
+  DxfFile write() {
+    chooseNames();
+    out_.section("HEADER");
+    out_.endSection();
+    out_.section("BLOCKS");
+    for (std::size_t i = 0; i < pattern_.pieces.size(); ++i) writeBlock(i);
+    out_.endSection();
+    out_.section("ENTITIES");
+    for (const std::string& name : blockNames_) {
+      out_.group(0, "INSERT");
+      out_.group(8, kBoundary);
+      out_.group(2, name);
+      out_.point(10, DxfPoint{});
+    }
+    writeStyleText();
+    out_.endSection();
+    out_.group(0, "EOF");
+    return {out_.str(), std::move(findings_)};
+  }
+
+ private:
+  /// ASCII, and a finding where letters are lost or changed.
+  std::string plainText(const std::string& text, const char* what, std::size_t most = 200) {
+    std::string ascii = toAscii(text);
+    if (ascii.size() > most) ascii.resize(most);
+    if (ascii != text && reported_.insert(text).second)
+      findings_.push_back({"dxf-text-changed",
+                           fmt::format("the DXF, which holds only ASCII, calls the {} \"{}\" "
+                                       "\"{}\"; the other files keep the name",
+                                       what, text, ascii),
+                           {}});
+    return ascii;
+  }
+
+  void chooseNames() {
+    const std::string style = design_.order.style.empty() ? design_.name : design_.order.style;
+    style_ = plainText(style, "style", kMostNameChars);
+    // Some readers refuse a piece without a size.
+    size_ = design_.order.size.empty() ? "ONE" : toPlainName(design_.order.size, kMostSizeChars);
+    std::set<std::string> taken;
+    for (const PatternPiece& piece : pattern_.pieces) {
+      const std::string whole = toPlainName(piece.name, 1000);
+      const std::string name =
+          makeUnique(toPlainName(piece.name, kMostNameChars), kMostNameChars, taken);
+      pieceNames_.push_back(name);
+      blockNames_.push_back(name + "_" + size_);
+      if (name != whole || toAscii(piece.name) != piece.name)
+        findings_.push_back({"dxf-name-changed",
+                             fmt::format("the DXF calls the piece \"{}\" {}: names there have at "
+                                         "most {} plain characters and differ from each other",
+                                         piece.name, name, kMostNameChars),
+                             {Element::piece(piece.id)}});
+    }
+  }
+
+  void collectPoints(const std::vector<LinePoint>& points) {
+    for (const LinePoint& p : points) {
+      bool& corner = markedPoints_[p.at];
+      corner = corner || p.corner;
+    }
+  }
+
+  void writeClosed(const Outline& outline, const Placement& placement, int layer, int curveLayer) {
+    const std::vector<LinePoint> points = clockwise(outline, placement);
+    collectPoints(points);
+    out_.polyline(layer, coordinates(points), true);
+    curves_.push_back({curveLayer, coordinates(points), true});
+  }
+
+  void writeInternal(const InternalLine& line, const Placement& placement) {
+    std::vector<LinePoint> points;
+    const std::size_t count = line.points.size();
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool isEnd = !line.closed && (i == 0 || i + 1 == count);
+      const bool turns =
+          !isEnd && std::abs(turnAngle(line.points[(i + count - 1) % count], line.points[i],
+                                       line.points[(i + 1) % count])) > 0.35;  // 20 degrees
+      points.push_back({toDxf(placement.apply(line.points[i])), isEnd || turns});
+    }
+    collectPoints(points);
+    out_.polyline(kInternal, coordinates(points), line.closed);
+    curves_.push_back({kInternalCurve, coordinates(points), line.closed});
+    if (!points.empty())
+      out_.text(kInternal, points.front().at, kEdgeTextHeightMm, plainText(line.name, "line"));
+  }
+
+  void writePieceText(std::size_t i) {
+    const PatternPiece& piece = pattern_.pieces[i];
+    const Placement& placement = pattern_.layout.placements[i];
+    std::vector<std::string> lines{"Piece Name:" + pieceNames_[i], "Size:" + size_,
+                                   fmt::format("Quantity:{},0", piece.count)};
+    if (!piece.fabric.empty()) lines.push_back("Material:" + plainText(piece.fabric, "fabric"));
+    lines.push_back("Annotation:" + style_);
+    lines.emplace_back("Category:");
+    Eigen::Vector2d at = placement.apply(piece.labelPosition);
+    for (const std::string& line : lines) {
+      out_.text(kBoundary, toDxf(at), kTextHeightMm, line);
+      at.y() -= kLineFeedMm;
+    }
+  }
+
+  /// What people read on the plotted piece: the label above the system text, and beside each seam
+  /// its number, the same on both pieces that meet there.
+  void writeAnnotation(std::size_t i) {
+    const PatternPiece& piece = pattern_.pieces[i];
+    const Placement& placement = pattern_.layout.placements[i];
+    Eigen::Vector2d at = placement.apply(piece.labelPosition);
+    at.y() += kLineFeedMm * static_cast<double>(piece.label.size());
+    for (const std::string& line : piece.label) {
+      out_.text(kAnnotation, toDxf(at), kTextHeightMm, plainText(line, "label"));
+      at.y() -= kLineFeedMm;
+    }
+    for (const OutlineRun& run : piece.runs) {
+      if (run.seam == 0) continue;
+      const Outline& loop = piece.sewLines[run.loop];
+      const std::size_t middle = run.first + run.edgeCount / 2;
+      const Eigen::Vector2d& a = loop[middle % loop.size()].position;
+      const Eigen::Vector2d& b = loop[(middle + 1) % loop.size()].position;
+      const Eigen::Vector2d along = (b - a).normalized();
+      const Eigen::Vector2d inward(-along.y(), along.x());
+      constexpr double kInsideMm = 3;
+      out_.text(kAnnotation, toDxf(placement.apply(0.5 * (a + b) + kInsideMm * inward)),
+                kEdgeTextHeightMm, std::to_string(run.seam),
+                std::atan2(along.y(), along.x()) + placement.angle);
+    }
+  }
+
+  void writeBlock(std::size_t i) {
+    const PatternPiece& piece = pattern_.pieces[i];
+    const Placement& placement = pattern_.layout.placements[i];
+    const bool hasAllowance = std::any_of(piece.runs.begin(), piece.runs.end(),
+                                          [](const OutlineRun& run) { return run.allowance > 0; });
+    markedPoints_.clear();
+    curves_.clear();
+    out_.group(0, "BLOCK");
+    out_.group(8, kBoundary);
+    out_.group(2, blockNames_[i]);
+    out_.group(70, 0);
+    out_.point(10, DxfPoint{});
+    out_.group(3, blockNames_[i]);
+    writePieceText(i);
+    for (std::size_t l = 0; l < piece.cutLines.size(); ++l)
+      writeClosed(piece.cutLines[l], placement, l == 0 ? kBoundary : kCutout,
+                  l == 0 ? kBoundaryCurve : kCutoutCurve);
+    if (hasAllowance)
+      for (const Outline& line : piece.sewLines) writeClosed(line, placement, kSew, kSewCurve);
+    for (const InternalLine& line : piece.internalLines) writeInternal(line, placement);
+    for (const auto& [at, corner] : markedPoints_) out_.mark(corner ? kTurnPoint : kCurvePoint, at);
+    for (const Notch& notch : piece.notches) {
+      out_.mark(kNotch, toDxf(placement.apply(notch.position)));
+      out_.length(30, notch.depth);  // no width (39): a slit
+      const Eigen::Vector2d inward = placement.applyToDirection(notch.direction);
+      out_.angle(50, std::atan2(inward.y(), inward.x()));
+    }
+    out_.line(kGrain, toDxf(placement.apply(piece.grain[0])),
+              toDxf(placement.apply(piece.grain[1])));
+    writeAnnotation(i);
+    for (const Curve& curve : curves_) out_.polyline(curve.layer, curve.points, curve.closed);
+    out_.group(0, "ENDBLK");
+    out_.group(8, kBoundary);
+  }
+
+  void writeStyleText() {
+    std::vector<std::string> lines{"Style Name:" + style_};
+    if (const auto date = fileDate(design_)) {
+      lines.push_back(
+          fmt::format("Creation Date:{:02}-{:02}-{:04}", date->day, date->month, date->year));
+      lines.push_back(fmt::format("Creation Time:{:02}-{:02}", date->hour, date->minute));
+    }
+    lines.push_back(fmt::format("Author:Toile;toile;{}", version()));
+    lines.push_back("Sample Size:" + size_);
+    lines.emplace_back("Grade Rule Table:");
+    lines.emplace_back("Units:METRIC");
+    lines.emplace_back("Curve Tolerance:0.05");
+    lines.emplace_back("ASTM/D13Proposal 1 Version:D6673-10");
+    constexpr double kBelowMm = 24;
+    constexpr double kStyleTextMm = 5;
+    constexpr double kStyleFeedMm = 8;
+    Eigen::Vector2d at = pattern_.layout.min - Eigen::Vector2d(0, kBelowMm);
+    for (const std::string& line : lines) {
+      out_.text(kBoundary, toDxf(at), kStyleTextMm, line);
+      at.y() -= kStyleFeedMm;
+    }
+  }
+
+  struct Curve {
+    int layer;
+    std::vector<DxfPoint> points;
+    bool closed;
+  };
+
+  const Pattern& pattern_;
+  const Design& design_;
+  DxfText out_;
+  std::string style_, size_;
+  std::vector<std::string> pieceNames_, blockNames_;
+  std::map<DxfPoint, bool> markedPoints_;  ///< of the block: vertex -> corner
+  std::vector<Curve> curves_;              ///< of the block, for layers 84-87
+  std::set<std::string> reported_;
+  std::vector<Finding> findings_;
+};
+
+}  // namespace
+
+DxfFile writeDxf(const Pattern& pattern) {
+  return Writer(pattern).write();
+}
+
+}  // namespace toile
