@@ -37,17 +37,22 @@ class PatternCache {
 
 /// Makes the pattern of a document. A piece that cannot be unfolded does not stop the others.
 ///
+/// Why it could not be is in Pattern::failures; it is left out of the pattern pieces.
 /// @return the pattern; an Error only when no piece can be made at all (curves that cannot be
-/// placed,
-///   a cut that fails, Cancelled).
+///   placed, a cut that fails, Cancelled).
 /// @par Cost  3 s for a wetsuit on 25k triangles is the bound; bench/pipeline_bench.cpp tells
 Result<Pattern> makePattern(const Document& document, const MakeOptions& options = {},
                             PatternCache* cache = nullptr, Progress* progress = nullptr);
 
-/// Reads a design and the model it is used on: its own first model, or `body` in its place. A body
-/// of other connectivity is refused (ModelMismatch) when the design holds surface points.
+/// Reads a design and the model it is used on: its own first model, or `body` in its place.
+///
+/// A body without names (a mesh file) on the connectivity of the design's own model takes over the
+/// names of that model.
+/// @param body a mesh file, a `*.model.json` or "builtin:...".
+/// @return the document; the errors of readDesign(), readModel(), makeBuiltinModel(); ModelMismatch
+///   for a body without names of another connectivity.
 Result<Document> openDocument(const std::filesystem::path& design,
-                              const std::optional<std::filesystem::path>& body = std::nullopt,
+                              const std::optional<std::string>& body = std::nullopt,
                               std::optional<FileUnit> unit = std::nullopt);
 
 /// One file of the result and what it is for.
@@ -56,10 +61,15 @@ struct WrittenFile {
   std::string purpose;
 };
 
+struct WrittenPattern {
+  std::vector<WrittenFile> files;
+  std::vector<Finding> findings;  ///< of the pattern and of writing it, such as shortened names
+};
+
 /// Writes pattern.dxf, .svg, .pdf, preview.png, report.html, report.json, pieces/*.obj into the
-/// folder: all of them, or on an error none of this run's.
-Result<std::vector<WrittenFile>> writePattern(const Pattern& pattern,
-                                              const std::filesystem::path& folder,
-                                              Progress* progress = nullptr);
+/// folder: all of them, or on an error none of this run's, and then the files of an earlier run
+/// stay as they were. Pieces that an earlier run made and this one does not are removed.
+Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesystem::path& folder,
+                                    Progress* progress = nullptr);
 
 }  // namespace toile

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "toile/layout/pattern.h"
 
@@ -15,9 +16,19 @@ std::string writeReportJson(const Pattern& pattern);
 /// The same for people: one self-contained HTML page (no network), with the pieces drawn.
 std::string writeReportHtml(const Pattern& pattern);
 
-/// A piece with its pattern: `v` on the body, `vt` in the plane (mm, placed as in the layout's
-/// piece frame, not moved), `f a/a b/b c/c`, wires as `l` chains under `g wire_<kind>_<id>`, `#
-/// target` comments where the target differs from the body length.
+/// Version of the report.json format that this program writes.
+inline constexpr int kReportFormatVersion = 1;
+
+/// A piece with its pattern: `v` on the body, `vt` in the plane (mm, as unfolded, not moved to the
+/// layout), `f a/a b/b c/c`, wires as `l` chains under `g` wireGroup(), `# target` comments where
+/// the target differs from the length between the `v`.
 std::string writePieceObj(const Piece& piece, const FlatPiece& flat);
+
+/// The name of a wire in OBJ files and reports, unique in its piece: `wire_<kind>_<curve>`, from
+/// the second run of a curve on `wire_<kind>_<curve>.2` and so on.
+std::string wireGroup(const Wire& wire);
+
+/// File names below pieces/, one per piece of the cut: its name made fit for file systems, unique.
+std::vector<std::string> pieceFileNames(const CutResult& cut);
 
 }  // namespace toile
