@@ -278,9 +278,14 @@ class Refiner {
   }
 
   Result<std::vector<Triangle>> refineFace(FaceId f) const {
+    const auto isSplit = [&](int side) {
+      return !table_.onEdge(mesh_.edge(mesh_.halfedge(f, side))).empty();
+    };
+    if (table_.inFace(f).empty() && !isSplit(0) && !isSplit(1) && !isSplit(2)) {
+      return std::vector<Triangle>{mesh_.vertices(f)};
+    }
     const FaceFrame frame(mesh_, f);
     std::vector<Node> nodes = table_.nodesOf(frame);
-    if (nodes.size() == 3) return std::vector<Triangle>{mesh_.vertices(f)};
     std::sort(nodes.begin(), nodes.end());
     std::vector<LatticePoint> points;
     for (const Node& node : nodes) points.push_back(frame.lattice(node));

@@ -13,6 +13,7 @@
 #include "support/drawn_curves.h"
 #include "support/meshes.h"
 #include "support/result_printing.h"
+#include "toile/core/parallel.h"
 
 namespace toile {
 namespace {
@@ -463,6 +464,65 @@ TEST(Cut, LeavesAPieceBitwiseTheSameWhenAnotherIsEdited) {
     for (const Piece& is : after->pieces) same += contentHash(was) == contentHash(is) ? 1 : 0;
   }
   EXPECT_EQ(same, 1U);
+}
+
+TEST(Cut, DoesNotDependOnTheNumberOfThreads) {
+  const Mesh mesh = test::icosphere(100, 3);
+  std::mt19937_64 random(3);
+  const Document document = documentOf(mesh);
+  for (int trial = 0; trial < 5; ++trial) {
+    const auto curves = test::randomCurves(mesh, 8, random);
+    const auto cutWith = [&](std::size_t threads) {
+      const ThreadLimit limit(threads);
+      return *cut(document, curves);
+    };
+    const CutResult one = cutWith(1);
+    const CutResult many = cutWith(2);
+    ASSERT_EQ(one.pieces.size(), many.pieces.size());
+    for (std::size_t p = 0; p < one.pieces.size(); ++p) {
+      EXPECT_EQ(contentHash(one.pieces[p]), contentHash(many.pieces[p]));
+      EXPECT_EQ(one.pieces[p].onModel, many.pieces[p].onModel);
+    }
+    EXPECT_EQ(one.includedArea, many.includedArea);
+    EXPECT_EQ(one.findings, many.findings);
+  }
+}
+
+TEST(Cut, StopsWhenCancelled) {
+  struct : Progress {
+    void step(std::string_view name) override { EXPECT_EQ(name, "cut"); }
+    [[nodiscard]] bool isCancelled() const override { return true; }
+  } progress;
+  const auto result = cut(documentOf(test::grid(2, 2)), {}, &progress);
+  ASSERT_FALSE(result);
+  EXPECT_EQ(result.error().code, ErrorCode::Cancelled);
+}
+
+// A seam along the model's border does not sew it to anything.
+TEST(Cut, LeavesTheModelsBorderAHem) {
+  const Mesh mesh = test::grid(6, 4);
+  std::vector<VertexId> line;
+  for (unsigned i = 0; i <= 6; ++i) line.emplace_back(i);
+  const auto result =
+      cut(documentOf(mesh), std::vector{drawn("s", CurveKind::Seam, test::edgePath(mesh, line))});
+  ASSERT_TRUE(result) << result.error();
+  expectSoundWires(*result);
+  ASSERT_EQ(result->pieces.size(), 1U);
+  ASSERT_EQ(result->pieces[0].wires.size(), 1U);
+  EXPECT_EQ(result->pieces[0].wires[0].kind, WireKind::Border);
+  EXPECT_EQ(result->pieces[0].wires[0].curve, "border");
+  EXPECT_TRUE(result->mates.empty());
+  EXPECT_THAT(codes(*result), ElementsAre("unnamed-piece", "hidden-curve"));
+}
+
+TEST(Cut, GivesAnOpeningNoMates) {
+  const Mesh mesh = test::grid(6, 4);
+  const auto zip = planeSections(mesh, Eigen::Vector3d::UnitX(), 33);
+  const auto result = cut(documentOf(mesh), std::vector{drawn("z", CurveKind::Opening, zip.at(0))});
+  ASSERT_TRUE(result) << result.error();
+  expectSoundWires(*result);
+  EXPECT_EQ(result->pieces.size(), 2U);
+  EXPECT_TRUE(result->mates.empty());
 }
 
 TEST(Cut, ContentHashSeesTargets) {
