@@ -2,8 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
-#include <optional>
+#include <array>
 
 #include "toile/unfold/unfold.h"
 
@@ -26,34 +25,21 @@ struct Mark {
   double target = 0;
 };
 
-std::string_view kindName(WireKind kind) {
-  switch (kind) {
-    case WireKind::Seam:
-      return "seam";
-    case WireKind::Opening:
-      return "opening";
-    case WireKind::Dart:
-      return "dart";
-    case WireKind::Feature:
-      return "feature";
-    case WireKind::Elastic:
-      return "elastic";
-    case WireKind::Border:
-      return "border";
-  }
-  return "";
+constexpr std::string_view kGroupPrefix = "wire_";
+
+std::string idWithoutName(std::size_t chain) {
+  return fmt::format("chain-{}", chain + 1);
 }
 
 Result<NamedChain> nameOf(const PolygonSoup::Chain& chain, std::size_t number) {
-  constexpr std::string_view kPrefix = "wire_";
-  if (!chain.group.starts_with(kPrefix)) {
-    return NamedChain{WireKind::Feature, fmt::format("chain-{}", number + 1)};
+  if (!chain.group.starts_with(kGroupPrefix)) {
+    return NamedChain{WireKind::Feature, idWithoutName(number)};
   }
-  const std::string_view rest = std::string_view(chain.group).substr(kPrefix.size());
+  const std::string_view rest = std::string_view(chain.group).substr(kGroupPrefix.size());
   for (const WireKind kind : kAllKinds) {
-    const std::string_view name = kindName(kind);
+    const std::string_view name = toString(kind);
     if (!rest.starts_with(name)) continue;
-    if (rest.size() == name.size()) return NamedChain{kind, fmt::format("chain-{}", number + 1)};
+    if (rest.size() == name.size()) return NamedChain{kind, idWithoutName(number)};
     if (rest[name.size()] == '_' && rest.size() > name.size() + 1) {
       return NamedChain{kind, std::string(rest.substr(name.size() + 1))};
     }
@@ -284,6 +270,40 @@ class PatchBuilder {
 };
 
 }  // namespace
+
+std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain>& chains,
+                          const std::map<std::string, double>& targets, const Piece& piece,
+                          const FlatPiece& flat) {
+  std::string out = "# toile-units: mm\n";
+  const auto append = std::back_inserter(out);
+  for (const Eigen::Vector3d& p : mesh.positions()) {
+    fmt::format_to(append, "v {} {} {}\n", p.x(), p.y(), p.z());
+  }
+  for (const Eigen::Vector2d& p : flat.position.values()) {
+    fmt::format_to(append, "vt {} {}\n", p.x(), p.y());
+  }
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& v = mesh.triangles()[f];
+    const Triangle& vt = piece.mesh->triangles()[f];
+    fmt::format_to(append, "f {}/{} {}/{} {}/{}\n", v[0].index() + 1, vt[0].index() + 1,
+                   v[1].index() + 1, vt[1].index() + 1, v[2].index() + 1, vt[2].index() + 1);
+  }
+  for (std::size_t c = 0; c < chains.size(); ++c) {
+    const std::vector<std::uint32_t>& v = chains[c].vertices;
+    const bool named = chains[c].group.starts_with(kGroupPrefix);
+    const std::string group = named ? chains[c].group : "wire_feature_" + idWithoutName(c);
+    fmt::format_to(append, "g {}\nl", group);
+    for (const std::uint32_t vertex : v) fmt::format_to(append, " {}", vertex + 1);
+    out += '\n';
+    for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+      const auto target = targets.find(fmt::format("{} {}", chains[c].group, i));
+      const EdgeId edge = mesh.findEdge(VertexId(v[i]), VertexId(v[i + 1]));
+      if (target == targets.end() || target->second == mesh.length(edge)) continue;
+      fmt::format_to(append, "# target {} {} {}\n", group, i, target->second);
+    }
+  }
+  return out;
+}
 
 Result<Piece> makePiece(const std::string& name, const Mesh& mesh,
                         const std::vector<PolygonSoup::Chain>& chains,

@@ -8,6 +8,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "cut/topology.h"
+
 namespace toile::unfolding {
 namespace {
 
@@ -62,60 +64,38 @@ Result<void> addTriangles(const Mesh& mesh, Problem& problem) {
   return {};
 }
 
-/// Sum of (pi - angle) along a loop: 2 pi around a flat disk, -2 pi around a hole in it, about 0 at
-/// the ends of a tube.
-double turning(const Mesh& mesh, const std::vector<HalfedgeId>& loop) {
-  double sum = 0;
-  for (const HalfedgeId h : loop) {
-    const VertexId v = mesh.from(h);
-    double alpha = 0;
-    HalfedgeId out = mesh.outgoing(v);
-    while (out.isValid()) {
-      alpha += angleAt(mesh.position(v), mesh.position(mesh.to(out)),
-                       mesh.position(mesh.from(mesh.previous(out))));
-      out = mesh.opposite(mesh.previous(out));
-    }
-    sum += pi - alpha;
-  }
-  return sum;
-}
-
 Result<void> addLoops(const Mesh& mesh, Problem& problem) {
-  const std::vector<std::vector<HalfedgeId>> loops = mesh.boundaryLoops();
+  const std::vector<cutting::LoopTurning> loops = cutting::measureLoops(mesh);
   std::vector<Element> where;
-  std::vector<double> turns;
-  for (const auto& loop : loops) {
-    where.push_back(Element::vertex(mesh.from(loop.front())));
-    turns.push_back(turning(mesh, loop));
+  for (const cutting::LoopTurning& loop : loops) {
+    if (where.size() < kMaxNamed) where.push_back(Element::vertex(mesh.from(loop.halfedges[0])));
     auto& vertices = problem.loops.emplace_back();
-    vertices.reserve(loop.size());
-    for (const HalfedgeId h : loop) vertices.push_back(mesh.from(h).index());
+    vertices.reserve(loop.halfedges.size());
+    for (const HalfedgeId h : loop.halfedges) vertices.push_back(mesh.from(h).index());
   }
-  if (where.size() > kMaxNamed) where.resize(kMaxNamed);
+  const auto refuse = [&](std::string message) {
+    return Error{ErrorCode::NotADisk, std::move(message), where};
+  };
   if (loops.empty()) {
-    return Error{ErrorCode::NotADisk,
-                 "the surface is closed and cannot lie flat; cut it open along a line",
-                 {}};
+    return refuse("the surface is closed and cannot lie flat; cut it open along a line");
   }
   if (mesh.componentCount() != 1) {
-    return Error{ErrorCode::NotADisk,
-                 fmt::format("the surface has {} separate parts; unfold them one by one",
-                             mesh.componentCount()),
-                 where};
+    return refuse(fmt::format("the surface has {} separate parts; unfold them one by one",
+                              mesh.componentCount()));
   }
   if (mesh.eulerCharacteristic() != 2 - static_cast<std::int64_t>(loops.size())) {
-    return Error{ErrorCode::NotADisk,
-                 "the surface has a handle; cut it open so that it can lie flat", where};
+    return refuse("the surface has a handle; cut it open so that it can lie flat");
   }
-  const auto outer = std::max_element(turns.begin(), turns.end());
-  problem.outerLoop = static_cast<std::size_t>(outer - turns.begin());
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    if (i == problem.outerLoop || turns[i] < -pi) continue;
-    return Error{ErrorCode::NotADisk,
-                 fmt::format("the surface is a tube with {} boundary loops; add a cut that joins "
-                             "them",
-                             loops.size()),
-                 where};
+  const auto holes = std::count_if(loops.begin(), loops.end(),
+                                   [](const cutting::LoopTurning& loop) { return loop.isHole; });
+  if (static_cast<std::size_t>(holes) + 1 != loops.size()) {
+    return refuse(
+        fmt::format("the surface is a tube with {} boundary loops; add a cut that joins "
+                    "them",
+                    loops.size()));
+  }
+  for (std::size_t i = 0; i < loops.size(); ++i) {
+    if (!loops[i].isHole) problem.outerLoop = i;
   }
   return {};
 }

@@ -3,6 +3,7 @@
 
 #include <cblas.h>
 #include <cholmod.h>
+#include <dlfcn.h>
 
 #include <new>
 
@@ -27,6 +28,16 @@ cholmod_sparse view(const std::vector<int>& start, const std::vector<int>& row,
   a.sorted = 1;
   a.packed = 1;
   return a;
+}
+
+/// CHOLMOD may be built with OpenMP, whose threads spin beside ours for loops of microseconds. Its
+/// runtime is then loaded, and is asked not to start any for the calling thread.
+void holdToOneThread() {
+  openblas_set_num_threads(1);  // idle BLAS threads cost, and sums depend on their number
+  using SetLevels = void (*)(int);
+  static const auto setLevels =
+      reinterpret_cast<SetLevels>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
+  if (setLevels != nullptr) setLevels(0);
 }
 
 }  // namespace
@@ -57,8 +68,7 @@ struct SparseFactor::State {
 };
 
 SparseFactor::SparseFactor(const BlockPattern& pattern) : state_(std::make_unique<State>()) {
-  // Idle BLAS threads double the processor time and make sums depend on their number.
-  openblas_set_num_threads(1);
+  holdToOneThread();
   cholmod_common& common = state_->common;
   common.print = 0;
   common.nmethods = 1;

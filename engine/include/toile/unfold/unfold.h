@@ -82,4 +82,12 @@ Result<Piece> makePiece(const std::string& name, const Mesh& mesh,
                         const std::vector<PolygonSoup::Chain>& chains,
                         const std::map<std::string, double>& targets = {});
 
+/// The patch with its plane as OBJ: vertices and faces of `mesh` in their order, `vt` in mm, one
+/// per vertex of the piece (those on a dart have one per side), the chains under their groups (a
+/// chain without one as `wire_feature_chain-<n>`) and the targets that differ from the surface.
+/// @param piece of makePiece() with the same mesh, chains and targets.
+std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain>& chains,
+                          const std::map<std::string, double>& targets, const Piece& piece,
+                          const FlatPiece& flat);
+
 }  // namespace toile

@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/unfold/unfold.h"
+
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <numbers>
+
+#include "commands.h"
+#include "toile/core/file.h"
+#include "toile/mesh/mesh_file.h"
+
+namespace toile::cli {
+namespace {
+
+struct UnfoldArguments {
+  std::filesystem::path in, out;
+  std::string objective = "least-strain";
+  UnfoldOptions options;
+};
+
+std::string toJson(const FlatPiece& flat, std::size_t faces) {
+  nlohmann::ordered_json json = {
+      {"format", "toile-unfold"},
+      {"version", 1},
+      {"faces", faces},
+      {"meanAreaError", flat.meanAreaError},
+      {"maxAreaError", flat.maxAreaError},
+      {"steps", flat.steps},
+      {"wireStiffness", flat.wireStiffness},
+      {"check",
+       {{"passes", flat.check.passes()},
+        {"maxLengthError", flat.check.maxLengthError},
+        {"maxClosureGapMm", flat.check.maxClosureGap},
+        {"flippedFaces", flat.check.flippedFaces},
+        {"crossings", flat.check.crossings},
+        {"maxTurnErrorDegrees", flat.check.maxTurnError * 180 / std::numbers::pi}}},
+      {"findings", nlohmann::ordered_json::array()}};
+  for (const Finding& finding : flat.findings) {
+    json["findings"].push_back({{"code", finding.code}, {"message", finding.message}});
+  }
+  return json.dump(2) + "\n";
+}
+
+int runUnfold(const UnfoldArguments& arguments, const Session& session) {
+  if (arguments.objective == "wirewarping") {
+    return fail({ErrorCode::Unsupported,
+                 "--objective=wirewarping is not part of this version yet; leave it out for the "
+                 "least strain with exact lengths",
+                 {}});
+  }
+  const std::string name = arguments.in.string();
+  const Result<MeshFile> file = readMesh(arguments.in, {.unit = session.units});
+  if (!file) return fail(file.error());
+  const Result<Piece> piece =
+      makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
+  if (!piece) return fail(piece.error().during(name));
+  const Result<FlatPiece> flat = unfold(*piece, arguments.options);
+  if (!flat) return fail(flat.error().during(name));
+  const Result<void> written = writeFileWhole(
+      arguments.out, writePatchObj(file->mesh, file->chains, file->targets, *piece, *flat));
+  if (!written) return fail(written.error());
+
+  std::vector<Finding> findings = file->findings;
+  findings.insert(findings.end(), flat->findings.begin(), flat->findings.end());
+  if (session.json) {
+    std::fputs(toJson(*flat, file->mesh.faceCount()).c_str(), stdout);
+  } else {
+    fmt::print(
+        "{}: {} faces, area error {:.2f} % on average and {:.1f} % at most, wire lengths "
+        "within {:.1e}, {} flipped, {} crossings\n",
+        arguments.out.string(), file->mesh.faceCount(), 100 * flat->meanAreaError,
+        100 * flat->maxAreaError, flat->check.maxLengthError, flat->check.flippedFaces,
+        flat->check.crossings);
+  }
+  return report(findings, session);
+}
+
+}  // namespace
+
+void addUnfold(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<UnfoldArguments>();
+  CLI::App* command =
+      addCommand(app, session, "unfold", "Lay one surface patch flat with exact wire lengths",
+                 [arguments, &session] { return runUnfold(*arguments, session); });
+  command->add_option("IN", arguments->in, "Model file of the patch; chains (`l`) become wires")
+      ->required();
+  command->add_option("-o,--output", arguments->out, "OBJ file to write, with `vt` in mm")
+      ->required()
+      ->type_name("FILE");
+  command
+      ->add_option("--objective", arguments->objective,
+                   "least-strain (default); wirewarping is not part of this version yet")
+      ->check(CLI::IsMember({"least-strain", "wirewarping"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--area-weight", arguments->options.areaWeight,
+                   "Price of area change against shear, 0 to 1000 (default 2)")
+      ->check(CLI::Range(0.0, 1000.0))
+      ->type_name("K");
+}
+
+}  // namespace toile::cli
