@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <array>
+#include <memory>
+#include <string>
+
+#include "finish/polygon.h"
+#include "io/sheet_drawing.h"
+
+namespace toile {
+
+/// A PDF in memory, drawn in millimetres with y up; lines and text stay vectors, fonts are
+/// embedded.
+class PdfCanvas {
+ public:
+  PdfCanvas();
+  ~PdfCanvas();
+  PdfCanvas(const PdfCanvas&) = delete;
+  PdfCanvas& operator=(const PdfCanvas&) = delete;
+
+  void setTitle(const std::string& utf8);
+  void setDate(const std::string& iso);  ///< "2026-01-31T00:00:00Z"
+
+  /// Begins a page; what follows is drawn at p + shift from its lower left corner.
+  void beginPage(double widthMm, double heightMm);
+  void setShift(const Eigen::Vector2d& shift) { shift_ = shift; }
+  /// Only inside that box (in drawing coordinates) until endClip(); lines outside are left out.
+  void beginClip(const Box2& box);
+  void endClip();
+
+  void line(const Points2& points, bool closed, const LineStyle& style, double grey = 0);
+  void text(const SheetText& text, double grey = 0);
+  /// Left-aligned; @return the width in mm. A text wider than `most` is set smaller to fit it.
+  double textFromLeft(const Eigen::Vector2d& baseline, double size, const std::string& utf8,
+                      bool bold = false, double most = 1e9);
+
+  /// Ends the document. @return its bytes, or an Error where the library reports one.
+  Result<std::string> finish();
+
+ private:
+  struct State;
+  [[nodiscard]] Eigen::Vector2d toPage(const Eigen::Vector2d& p) const;
+  void drawText(const Eigen::Vector2d& at, double angle, double size, bool bold, double grey,
+                const std::string& utf8, double alignment);
+
+  std::unique_ptr<State> state_;
+  Eigen::Vector2d shift_{0, 0};
+  double pageHeight_ = 0;
+  bool hasPage_ = false;
+  bool isClipped_ = false;
+  Box2 clip_;
+};
+
+}  // namespace toile

@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/pdf_tiles.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace toile {
+namespace {
+
+constexpr double kAroundMm = 3;  ///< free paper around the pieces
+
+/// Clips a segment to a box (Liang and Barsky); whether anything is left.
+bool crosses(const Box2& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  double from = 0;
+  double to = 1;
+  for (int k = 0; k < 2; ++k) {
+    const double d = b[k] - a[k];
+    if (d == 0) {
+      if (a[k] < box.min[k] || a[k] > box.max[k]) return false;
+      continue;
+    }
+    const double t0 = (box.min[k] - a[k]) / d;
+    const double t1 = (box.max[k] - a[k]) / d;
+    from = std::max(from, std::min(t0, t1));
+    to = std::min(to, std::max(t0, t1));
+  }
+  return from <= to;
+}
+
+std::vector<char> usedTiles(const SheetDrawing& sheet, const TilePlan& plan) {
+  std::vector<char> used(static_cast<std::size_t>(plan.rows * plan.columns), 0);
+  const auto at = [&](int row, int column) -> char& {
+    return used[static_cast<std::size_t>(row * plan.columns + column)];
+  };
+  const double top = plan.origin.y() + plan.rows * kTileHeightMm;
+  const auto columnOf = [&](double x) {
+    return std::clamp(static_cast<int>(std::floor((x - plan.origin.x()) / kTileWidthMm)), 0,
+                      plan.columns - 1);
+  };
+  const auto rowOf = [&](double y) {
+    return std::clamp(static_cast<int>(std::floor((top - y) / kTileHeightMm)), 0, plan.rows - 1);
+  };
+  for (const PieceDrawing& piece : sheet.pieces) {
+    std::vector<Points2> cut;
+    for (const SheetLine& line : piece.lines) {
+      if (line.role != SheetRole::Cut) continue;  // everything else lies inside
+      cut.push_back(line.points);
+      for (std::size_t i = 0; i < line.points.size(); ++i) {
+        const Eigen::Vector2d& a = line.points[i];
+        const Eigen::Vector2d& b = line.points[(i + 1) % line.points.size()];
+        for (int r = rowOf(std::max(a.y(), b.y())); r <= rowOf(std::min(a.y(), b.y())); ++r)
+          for (int c = columnOf(std::min(a.x(), b.x())); c <= columnOf(std::max(a.x(), b.x())); ++c)
+            if (at(r, c) == 0 && crosses(plan.box(r, c), a, b)) at(r, c) = 1;
+      }
+    }
+    if (cut.empty()) continue;
+    const Box2 box = boxOf(cut.front());
+    for (int r = rowOf(box.max.y()); r <= rowOf(box.min.y()); ++r)
+      for (int c = columnOf(box.min.x()); c <= columnOf(box.max.x()); ++c) {
+        const Box2 tile = plan.box(r, c);
+        if (at(r, c) == 0 && isInside(cut, 0.5 * (tile.min + tile.max))) at(r, c) = 1;
+      }
+  }
+  return used;
+}
+
+}  // namespace
+
+std::string tileName(int row, int column) {
+  std::string letters;
+  for (int r = row; r >= 0; r = r / 26 - 1)
+    letters.insert(letters.begin(), static_cast<char>('A' + r % 26));
+  return fmt::format("{}{}", letters, column + 1);
+}
+
+std::string Tile::name() const {
+  return tileName(row, column);
+}
+
+Box2 TilePlan::box(int row, int column) const {
+  Box2 tile;
+  tile.min = origin + Eigen::Vector2d(column * kTileWidthMm, (rows - 1 - row) * kTileHeightMm);
+  tile.max = tile.min + Eigen::Vector2d(kTileWidthMm, kTileHeightMm);
+  return tile;
+}
+
+const Tile* TilePlan::find(int row, int column) const {
+  for (const Tile& tile : tiles)
+    if (tile.row == row && tile.column == column) return &tile;
+  return nullptr;
+}
+
+TilePlan planTiles(const SheetDrawing& sheet, int firstPage) {
+  const Eigen::Vector2d size = sheet.box.size() + Eigen::Vector2d(2, 2) * kAroundMm;
+  TilePlan plan;
+  plan.columns = std::max(1, static_cast<int>(std::ceil(size.x() / kTileWidthMm)));
+  plan.rows = std::max(1, static_cast<int>(std::ceil(size.y() / kTileHeightMm)));
+  const Eigen::Vector2d slack(plan.columns * kTileWidthMm - size.x(),
+                              plan.rows * kTileHeightMm - size.y());
+  // The grid may lie anywhere within the slack: of 6 x 6 places the one that saves most paper.
+  constexpr int kPlaces = 6;
+  const Eigen::Vector2d low = sheet.box.min - Eigen::Vector2d(1, 1) * kAroundMm;
+  std::vector<char> best;
+  Eigen::Vector2d bestOrigin = low;
+  std::ptrdiff_t fewest = 0;
+  for (int i = 0; i < kPlaces; ++i) {
+    for (int j = 0; j < kPlaces; ++j) {
+      plan.origin = low - Eigen::Vector2d(slack.x() * i, slack.y() * j) / (kPlaces - 1);
+      std::vector<char> used = usedTiles(sheet, plan);
+      const std::ptrdiff_t count = std::count(used.begin(), used.end(), 1);
+      if (!best.empty() && count >= fewest) continue;
+      best = std::move(used);
+      bestOrigin = plan.origin;
+      fewest = count;
+    }
+  }
+  plan.origin = bestOrigin;
+  for (int r = 0; r < plan.rows; ++r)
+    for (int c = 0; c < plan.columns; ++c)
+      if (best[static_cast<std::size_t>(r * plan.columns + c)] != 0) {
+        plan.tiles.push_back(
+            {r, c, firstPage + static_cast<int>(plan.tiles.size()), plan.box(r, c)});
+      }
+  return plan;
+}
+
+}  // namespace toile

@@ -1,0 +1,386 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "io/sheet_drawing.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <set>
+
+namespace toile {
+namespace {
+
+using Eigen::Vector2d;
+using std::numbers::pi;
+
+const LineStyle kCutStyle{0.6, {}};
+const LineStyle kSewStyle{0.35, {5, 2.5}};
+const LineStyle kFeatureStyle{0.25, {8, 2, 1.5, 2}};
+const LineStyle kElasticStyle{0.25, {1.5, 1.5}};
+const LineStyle kMarkStyle{0.25, {}};
+const LineStyle kNotchStyle{0.5, {}};
+const LineStyle kGrainStyle{0.35, {}};
+
+constexpr double kNameSizeMm = 6;
+constexpr double kLabelSizeMm = 4;
+constexpr double kEdgeSizeMm = 3.2;
+constexpr double kNotchSizeMm = 2.6;
+constexpr double kLineFeed = 1.35;
+
+const LineStyle& styleOf(CurveKind kind) {
+  switch (kind) {
+    case CurveKind::Elastic:
+      return kElasticStyle;
+    case CurveKind::Mark:
+      return kMarkStyle;
+    case CurveKind::Feature:
+    case CurveKind::Seam:
+    case CurveKind::Opening:
+    case CurveKind::Dart:
+      break;
+  }
+  return kFeatureStyle;
+}
+
+/// Text is never upside down: the angle of a direction or of its opposite.
+double readableAngle(const Vector2d& direction) {
+  double angle = std::atan2(direction.y(), direction.x());
+  if (angle > 0.5 * pi + 1e-9) angle -= pi;
+  if (angle < -0.5 * pi + 1e-9) angle += pi;
+  return angle;
+}
+
+double lengthOf(const Points2& points) {
+  double length = 0;
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
+  return length;
+}
+
+Vector2d pointAt(const Points2& points, double along) {
+  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
+    const double step = (points[i + 1] - points[i]).norm();
+    if (along <= step && step > 0) return points[i] + along / step * (points[i + 1] - points[i]);
+    along -= step;
+  }
+  return points.back();
+}
+
+class PieceArtist {
+ public:
+  PieceArtist(const Pattern& pattern, std::size_t index)
+      : pattern_(pattern),
+        piece_(pattern.pieces[index]),
+        placement_(pattern.layout.placements[index]) {
+    out_.id = piece_.id;
+    out_.name = piece_.name;
+    for (const Outline& loop : piece_.sewLines) sew_.push_back(placed(positions(loop)));
+  }
+
+  PieceDrawing draw() {
+    for (const Outline& loop : piece_.cutLines) {
+      SheetLine line;
+      line.points = placed(positions(loop));
+      line.closed = true;
+      line.style = kCutStyle;
+      out_.lines.push_back(std::move(line));
+    }
+    drawSewLines();
+    drawInternalLines();
+    drawNotches();
+    drawGrain();
+    drawLabel();
+    drawEdgeNames();
+    return std::move(out_);
+  }
+
+ private:
+  [[nodiscard]] Points2 placed(Points2 points) const {
+    for (Vector2d& p : points) p = placement_.apply(p);
+    return points;
+  }
+
+  [[nodiscard]] Points2 pointsOf(const OutlineRun& run) const {
+    const Points2& loop = sew_[run.loop];
+    Points2 points;
+    for (std::size_t i = 0; i <= run.edgeCount; ++i)
+      points.push_back(loop[(run.first + i) % loop.size()]);
+    return points;
+  }
+
+  [[nodiscard]] std::string pieceName(const std::string& id) const {
+    for (const PatternPiece& piece : pattern_.pieces)
+      if (piece.id == id) return piece.name;
+    return id;
+  }
+
+  [[nodiscard]] std::string curveName(const std::string& id) const {
+    for (const StylingCurve& curve : pattern_.document.design->curves)
+      if (curve.id == id && !curve.name.empty()) return curve.name;
+    return id;
+  }
+
+  void drawSewLines() {
+    for (const OutlineRun& run : piece_.runs) {
+      if (run.allowance <= 0) continue;  // it is the cut line
+      SheetLine line;
+      line.role = SheetRole::Sew;
+      line.points = pointsOf(run);
+      line.style = kSewStyle;
+      line.curve = run.curve;
+      line.kind = toString(run.kind);
+      line.seam = run.seam;
+      line.mate = run.mate;
+      out_.lines.push_back(std::move(line));
+    }
+  }
+
+  void drawInternalLines() {
+    for (const InternalLine& internal : piece_.internalLines) {
+      if (internal.points.size() < 2) continue;
+      SheetLine line;
+      line.role = SheetRole::Internal;
+      line.points = placed(internal.points);
+      line.closed = internal.closed;
+      line.style = styleOf(internal.kind);
+      line.curve = internal.curve;
+      line.kind = toString(internal.kind);
+      // The name stands on the line near its left end, off the crossings in the middle.
+      Points2 way = line.points;
+      if (way.front().x() > way.back().x()) std::reverse(way.begin(), way.end());
+      const double length = lengthOf(way);
+      const double width = estimatedWidth(internal.name, kEdgeSizeMm);
+      if (length > 1.5 * width) {
+        const double middle = std::max(0.22 * length, 0.5 * width + 6);
+        const Vector2d a = pointAt(way, middle - 0.5 * width);
+        const Vector2d b = pointAt(way, middle + 0.5 * width);
+        addAlong(a, b, pointAt(way, middle), 1.2, kEdgeSizeMm, internal.name, SheetRole::Internal);
+      }
+      out_.lines.push_back(std::move(line));
+    }
+  }
+
+  /// A text along the chord a-b, `clear` above the higher of the chord and `top`.
+  void addAlong(const Vector2d& a, const Vector2d& b, const Vector2d& top, double clear,
+                double size, const std::string& text, SheetRole role) {
+    const double angle = readableAngle(b - a);
+    const Vector2d up(-std::sin(angle), std::cos(angle));
+    const Vector2d middle = 0.5 * (a + b);
+    const double rise = std::max(0.0, (top - middle).dot(up)) + clear;
+    out_.texts.push_back({role, middle + rise * up, angle, size, false, text});
+  }
+
+  void drawNotches() {
+    std::set<std::pair<int, std::string>> numbered;
+    for (const Notch& notch : piece_.notches) {
+      SheetLine line;
+      line.role = SheetRole::Notch;
+      const Vector2d at = placement_.apply(notch.position);
+      const Vector2d inward = placement_.applyToDirection(notch.direction);
+      line.points = {at, at + notch.depth * inward};
+      line.style = kNotchStyle;
+      line.curve = notch.seam;
+      line.kind = "notch";
+      line.seam = notch.number;
+      out_.lines.push_back(std::move(line));
+      // Of a double notch one has the number; the two sides of a dart have one each.
+      if (notch.number == 0 || !numbered.emplace(notch.number, sideKey(notch)).second) continue;
+      const Vector2d middle = at + (notch.depth + 0.8 * kNotchSizeMm) * inward;
+      out_.texts.push_back({SheetRole::Notch, middle - Vector2d(0, 0.36 * kNotchSizeMm), 0,
+                            kNotchSizeMm, false, std::to_string(notch.number)});
+    }
+  }
+
+  /// Tells apart notches of one number that do not stand side by side.
+  [[nodiscard]] std::string sideKey(const Notch& notch) const {
+    constexpr double kSideBySideMm = 20;
+    for (std::size_t i = 0; i < piece_.notches.size(); ++i)
+      if (piece_.notches[i].number == notch.number &&
+          (piece_.notches[i].position - notch.position).norm() < kSideBySideMm)
+        return std::to_string(i);
+    return {};
+  }
+
+  void drawGrain() {
+    const Vector2d a = placement_.apply(piece_.grain[0]);
+    const Vector2d b = placement_.apply(piece_.grain[1]);
+    const double length = (b - a).norm();
+    if (length <= 0) return;
+    const Vector2d along = (b - a) / length;
+    const Vector2d aside(-along.y(), along.x());
+    const double head = std::min(8.0, 0.2 * length);
+    const auto add = [&](Points2 points) {
+      SheetLine line;
+      line.role = SheetRole::Grain;
+      line.points = std::move(points);
+      line.style = kGrainStyle;
+      line.kind = "grain";
+      out_.lines.push_back(std::move(line));
+    };
+    add({a, b});
+    add({a + head * along + 0.35 * head * aside, a, a + head * along - 0.35 * head * aside});
+    add({b - head * along + 0.35 * head * aside, b, b - head * along - 0.35 * head * aside});
+  }
+
+  /// Whether a rectangle lies inside the sew lines, by points along its rim.
+  [[nodiscard]] bool holds(const Vector2d& centre, const Vector2d& along, double width,
+                           double height) const {
+    const Vector2d up(-along.y(), along.x());
+    for (int i = 0; i <= 8; ++i) {
+      const double t = i / 8.0 - 0.5;
+      for (const double side : {-0.5, 0.5}) {
+        if (!isInside(sew_, centre + t * width * along + side * height * up)) return false;
+        if (!isInside(sew_, centre + side * width * along + t * height * up)) return false;
+      }
+    }
+    return true;
+  }
+
+  /// As large as fits, upright if it can be read so, else along the piece.
+  void drawLabel() {
+    if (piece_.label.empty()) return;
+    double width = 0;
+    double height = 0;
+    for (std::size_t i = 0; i < piece_.label.size(); ++i) {
+      const double size = i == 0 ? kNameSizeMm : kLabelSizeMm;
+      width = std::max(width, estimatedWidth(piece_.label[i], size));
+      height += kLineFeed * size;
+    }
+    const Vector2d centre = placement_.apply(piece_.labelPosition);
+    constexpr std::array<double, 8> kScales{1, 0.85, 0.7, 0.6, 0.5, 0.42, 0.36, 0.3};
+    constexpr std::array<double, 4> kAngles{0, 0.5 * pi, 0.25 * pi, -0.25 * pi};
+    constexpr double kReadable = 0.6;  // below, a turned label may do better
+    constexpr double kRoom = 1.06;
+    double bestScale = 0;
+    double bestAngle = 0;
+    for (const double angle : kAngles) {
+      if (bestScale >= kReadable) break;
+      const Vector2d along(std::cos(angle), std::sin(angle));
+      for (const double scale : kScales) {
+        if (scale <= bestScale) break;
+        if (!holds(centre, along, kRoom * scale * width, kRoom * scale * height)) continue;
+        bestScale = scale;
+        bestAngle = angle;
+        break;
+      }
+    }
+    if (bestScale == 0) bestScale = kScales.back();
+    const Vector2d down(std::sin(bestAngle), -std::cos(bestAngle));
+    double below = -0.5 * height;
+    for (std::size_t i = 0; i < piece_.label.size(); ++i) {
+      const double size = i == 0 ? kNameSizeMm : kLabelSizeMm;
+      below += kLineFeed * size;
+      const Vector2d at = centre + bestScale * (below - 0.3 * size) * down;
+      out_.texts.push_back(
+          {SheetRole::Text, at, bestAngle, bestScale * size, i == 0, piece_.label[i]});
+    }
+  }
+
+  /// Beside the middle of each seam: its number, its curve and the piece sewn on.
+  void drawEdgeNames() {
+    const std::vector<OutlineRun>& runs = piece_.runs;
+    std::vector<char> done(runs.size(), 0);
+    for (std::size_t r = 0; r < runs.size(); ++r) {
+      if (done[r] != 0) continue;
+      done[r] = 1;
+      if (runs[r].seam == 0 && runs[r].kind != WireKind::Opening) continue;
+      // Runs of one seam that only feature lines part have one name.
+      Points2 points = pointsOf(runs[r]);
+      for (std::size_t next = r + 1; next < runs.size() && runs[next].loop == runs[r].loop &&
+                                     runs[next].seam == runs[r].seam &&
+                                     runs[next].curve == runs[r].curve && !sewCorner(runs[next]);
+           ++next) {
+        done[next] = 1;
+        const Points2 more = pointsOf(runs[next]);
+        points.insert(points.end(), more.begin() + 1, more.end());
+      }
+      const std::string number = runs[r].seam == 0 ? "" : fmt::format("{}", runs[r].seam);
+      const std::string name = curveName(runs[r].curve);
+      const bool isOwn = runs[r].mate == piece_.id;
+      const std::string mate =
+          runs[r].mate.empty() || isOwn ? "" : " to " + pieceName(runs[r].mate);
+      const double length = lengthOf(points);
+      for (const std::string& text : {number.empty() ? name : number + "  " + name + mate,
+                                      number.empty() ? name : number + "  " + name, number}) {
+        const double width = estimatedWidth(text, kEdgeSizeMm);
+        if (text.empty() || width > 0.8 * length) continue;
+        placeEdgeName(points, 0.5 * length, width, text);
+        break;
+      }
+    }
+  }
+
+  [[nodiscard]] bool sewCorner(const OutlineRun& run) const {
+    return piece_.sewLines[run.loop][run.first].corner;
+  }
+
+  void placeEdgeName(const Points2& points, double middle, double width, const std::string& text) {
+    const Vector2d a = pointAt(points, middle - 0.5 * width);
+    const Vector2d b = pointAt(points, middle + 0.5 * width);
+    const Vector2d along = b - a;
+    if (along.norm() <= 0) return;
+    // The piece lies on the left. Clear of the line where it bends inwards beside the text.
+    const Vector2d inward = Vector2d(-along.y(), along.x()).normalized();
+    double bulge = 0;
+    for (int i = 1; i < 8; ++i)
+      bulge = std::max(bulge, (pointAt(points, middle + (i / 8.0 - 0.5) * width) - a).dot(inward));
+    const double angle = readableAngle(along);
+    const Vector2d up(-std::sin(angle), std::cos(angle));
+    // The baseline is the text's lower rim, which lies towards the line or away from it.
+    constexpr double kClearMm = 1.8;
+    const double toBaseline =
+        bulge + kClearMm + (up.dot(inward) > 0 ? 0.2 * kEdgeSizeMm : 0.75 * kEdgeSizeMm);
+    out_.texts.push_back(
+        {SheetRole::Text, 0.5 * (a + b) + toBaseline * inward, angle, kEdgeSizeMm, false, text});
+  }
+
+  const Pattern& pattern_;
+  const PatternPiece& piece_;
+  const Placement& placement_;
+  std::vector<Points2> sew_;
+  PieceDrawing out_;
+};
+
+}  // namespace
+
+const char* layerName(SheetRole role) {
+  switch (role) {
+    case SheetRole::Cut:
+      return "cut line";
+    case SheetRole::Sew:
+      return "sew line";
+    case SheetRole::Internal:
+      return "inner lines";
+    case SheetRole::Notch:
+      return "notches";
+    case SheetRole::Grain:
+      return "grain line";
+    case SheetRole::Text:
+      return "text";
+  }
+  return "";
+}
+
+double estimatedWidth(const std::string& utf8, double size) {
+  constexpr double kMeanAdvance = 0.61;  // of the em, DejaVu Sans in mixed text
+  const auto characters = std::count_if(utf8.begin(), utf8.end(), [](char c) {
+    return (static_cast<unsigned char>(c) & 0xc0U) != 0x80U;
+  });
+  return kMeanAdvance * size * static_cast<double>(characters);
+}
+
+SheetDrawing drawSheet(const Pattern& pattern) {
+  SheetDrawing sheet;
+  Points2 all;
+  for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
+    sheet.pieces.push_back(PieceArtist(pattern, i).draw());
+    for (const SheetLine& line : sheet.pieces.back().lines)
+      if (line.role == SheetRole::Cut)
+        all.insert(all.end(), line.points.begin(), line.points.end());
+  }
+  sheet.box = boxOf(all);
+  return sheet;
+}
+
+}  // namespace toile

@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/io/svg.h"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "io/sheet_drawing.h"
+
+namespace toile {
+namespace {
+
+constexpr double kMarginMm = 10;
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) {
+    switch (c) {
+      case '&':
+        out += "&amp;";
+        break;
+      case '<':
+        out += "&lt;";
+        break;
+      case '>':
+        out += "&gt;";
+        break;
+      case '"':
+        out += "&quot;";
+        break;
+      default:
+        // XML 1.0 has no way to write other control characters.
+        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
+    }
+  }
+  return out;
+}
+
+/// Thousandths of a millimetre, without trailing zeros and never "-0".
+std::string number(double mm) {
+  const long long value = std::llround(mm * 1000);
+  const long long size = value < 0 ? -value : value;
+  std::string text = fmt::format("{}{}", value < 0 ? "-" : "", size / 1000);
+  if (size % 1000 != 0) {
+    text += fmt::format(".{:03}", size % 1000);
+    while (text.back() == '0') text.pop_back();
+  }
+  return text;
+}
+
+class Writer {
+ public:
+  explicit Writer(const Pattern& pattern)
+      : pattern_(pattern), sheet_(drawSheet(pattern)), out_(std::back_inserter(text_)) {}
+
+  std::string write() {
+    const Eigen::Vector2d size = sheet_.box.size() + Eigen::Vector2d(2, 2) * kMarginMm;
+    fmt::format_to(out_,
+                   "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                   "<svg xmlns=\"http://www.w3.org/2000/svg\" "
+                   "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
+                   "version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
+                   "<title>{2}</title>\n",
+                   number(size.x()), number(size.y()), escaped(pattern_.document.design->name));
+    for (std::size_t i = 0; i < sheet_.pieces.size(); ++i)
+      writePiece(sheet_.pieces[i], pattern_.pieces[i]);
+    text_ += "</svg>\n";
+    return std::move(text_);
+  }
+
+ private:
+  /// The sheet's y is up, the file's is down: the one place where it turns.
+  [[nodiscard]] Eigen::Vector2d toFile(const Eigen::Vector2d& p) const {
+    return {p.x() - sheet_.box.min.x() + kMarginMm, sheet_.box.max.y() - p.y() + kMarginMm};
+  }
+
+  void writePiece(const PieceDrawing& drawing, const PatternPiece& piece) {
+    fmt::format_to(out_,
+                   "<g id=\"piece-{0}\" inkscape:groupmode=\"layer\" inkscape:label=\"{1}\" "
+                   "data-piece=\"{0}\" data-number=\"{2}\" data-count=\"{3}\" data-fabric=\"{4}\" "
+                   "fill=\"none\" stroke=\"black\" stroke-linejoin=\"round\">\n",
+                   escaped(drawing.id), escaped(drawing.name), piece.number, piece.count,
+                   escaped(piece.fabric));
+    for (const SheetRole role : {SheetRole::Cut, SheetRole::Sew, SheetRole::Internal,
+                                 SheetRole::Notch, SheetRole::Grain, SheetRole::Text}) {
+      fmt::format_to(out_, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{} {}\">\n",
+                     escaped(drawing.name), layerName(role));
+      for (const SheetLine& line : drawing.lines)
+        if (line.role == role) writeLine(line);
+      for (const SheetText& text : drawing.texts)
+        if (text.role == role) writeText(text);
+      text_ += "</g>\n";
+    }
+    text_ += "</g>\n";
+  }
+
+  void writeLine(const SheetLine& line) {
+    fmt::format_to(out_, "<path stroke-width=\"{}\"", number(line.style.width));
+    if (!line.style.dash.empty()) {
+      text_ += " stroke-dasharray=\"";
+      for (std::size_t i = 0; i < line.style.dash.size(); ++i)
+        fmt::format_to(out_, "{}{}", i == 0 ? "" : " ", number(line.style.dash[i]));
+      text_ += '"';
+    }
+    if (!line.kind.empty()) fmt::format_to(out_, " data-kind=\"{}\"", escaped(line.kind));
+    if (!line.curve.empty()) fmt::format_to(out_, " data-curve=\"{}\"", escaped(line.curve));
+    if (line.seam != 0)
+      fmt::format_to(out_, " data-{}=\"{}\"", line.role == SheetRole::Notch ? "notch" : "seam",
+                     line.seam);
+    if (!line.mate.empty()) fmt::format_to(out_, " data-mate=\"{}\"", escaped(line.mate));
+    text_ += " d=\"";
+    for (std::size_t i = 0; i < line.points.size(); ++i) {
+      const Eigen::Vector2d p = toFile(line.points[i]);
+      fmt::format_to(out_, "{}{} {}",
+                     i == 0   ? "M"
+                     : i == 1 ? " L"
+                              : " ",
+                     number(p.x()), number(p.y()));
+    }
+    text_ += line.closed ? " Z\"/>\n" : "\"/>\n";
+  }
+
+  void writeText(const SheetText& text) {
+    const Eigen::Vector2d p = toFile(text.position);
+    fmt::format_to(out_, "<text x=\"{}\" y=\"{}\"", number(p.x()), number(p.y()));
+    const double degrees = -text.angle * 180 / std::numbers::pi;
+    if (degrees != 0)
+      fmt::format_to(out_, " transform=\"rotate({} {} {})\"", number(degrees), number(p.x()),
+                     number(p.y()));
+    fmt::format_to(out_,
+                   " font-family=\"DejaVu Sans, sans-serif\" font-size=\"{}\"{} "
+                   "text-anchor=\"middle\" fill=\"black\" stroke=\"none\">{}</text>\n",
+                   number(text.size), text.bold ? " font-weight=\"bold\"" : "", escaped(text.text));
+  }
+
+  const Pattern& pattern_;
+  SheetDrawing sheet_;
+  std::string text_;
+  std::back_insert_iterator<std::string> out_;
+};
+
+}  // namespace
+
+std::string writeSvg(const Pattern& pattern) {
+  return Writer(pattern).write();
+}
+
+}  // namespace toile

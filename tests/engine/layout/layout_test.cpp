@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+
+#include "finish/polygon.h"
+#include "layout/clearance.h"
+#include "support/hand_made_pattern.h"
+#include "support/result_printing.h"
+
+namespace toile {
+namespace {
+
+using Eigen::Vector2d;
+
+/// Pieces to lay out: a rectangle of the plane that faces the front each, 10 mm allowance.
+struct Pieces {
+  CutResult cut;
+  std::vector<std::shared_ptr<const FlatPiece>> flats;
+  std::vector<PatternPiece> pattern;
+  std::vector<std::uint32_t> index;
+  ReferenceModel model;
+
+  /// `turn` turns the flat piece; `fromBehind` puts it on the back of the model.
+  void add(const std::function<bool(double, double)>& holds, double turn = 0,
+           bool fromBehind = false) {
+    const test::HandMadePiece plan{
+        "piece" + std::to_string(pattern.size()),
+        holds,
+        [](double, double) { return std::pair(WireKind::Border, std::string("border")); },
+        {},
+        {}};
+    Piece piece = test::makeHandMadePiece(plan, 400, 400);
+    FlatPiece flat = test::flatOf(piece);
+    Placement rotation;
+    rotation.angle = turn;
+    for (Vector2d& p : flat.position.values()) p = rotation.apply(p);
+    std::vector<Eigen::Vector3d> positions = piece.mesh->positions();
+    for (Eigen::Vector3d& p : positions) {
+      p.x() -= 200;
+      if (fromBehind) p = {-p.x(), 100, p.z()};
+    }
+    piece.mesh = std::make_shared<const Mesh>(piece.mesh->withPositions(positions));
+    cut.pieces.push_back(piece);
+    flats.push_back(std::make_shared<const FlatPiece>(flat));
+    index.push_back(static_cast<std::uint32_t>(index.size()));
+  }
+
+  Layout arranged() {
+    auto design = std::make_shared<Design>();
+    Document document;
+    document.design = design;
+    model.mesh = cut.pieces.front().mesh;
+    model.symmetry = Symmetry();
+    auto finished = finish(document, {}, cut, flats);
+    EXPECT_TRUE(finished) << finished.error();
+    pattern = *std::move(finished);
+    auto layout = arrange(model, cut, flats, pattern, index);
+    EXPECT_TRUE(layout) << layout.error();
+    return layout ? *std::move(layout) : Layout();
+  }
+
+  [[nodiscard]] Points2 cutLine(const Layout& layout, std::size_t piece) const {
+    Points2 points = positions(pattern[piece].cutLines.front());
+    for (Vector2d& p : points) p = layout.placements[piece].apply(p);
+    return points;
+  }
+};
+
+void expectNoOverlap(const Pieces& pieces, const Layout& layout) {
+  for (std::size_t i = 0; i < pieces.pattern.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j)
+      EXPECT_GE(distanceBetween(pieces.cutLine(layout, i), pieces.cutLine(layout, j)),
+                kLayoutGapMm - 1e-3)
+          << i << " and " << j;
+}
+
+TEST(Layout, KeepsTheBodysOrderLeftAndRightMirrored) {
+  Pieces pieces;
+  pieces.add([](double u, double v) { return u < 100 && v < 200; });
+  pieces.add([](double u, double v) { return u > 100 && u < 300 && v < 200; });
+  pieces.add([](double u, double v) { return u > 300 && v < 200; });
+  const Layout layout = pieces.arranged();
+  expectNoOverlap(pieces, layout);
+  EXPECT_TRUE(layout.findings.empty());
+  // The wearer's right (-x) is on the left of the sheet.
+  const Box2 left = boxOf(pieces.cutLine(layout, 0));
+  const Box2 middle = boxOf(pieces.cutLine(layout, 1));
+  const Box2 right = boxOf(pieces.cutLine(layout, 2));
+  EXPECT_NEAR(middle.min.x() - left.max.x(), kLayoutGapMm, 2);
+  const double axis = 0.5 * (middle.min.x() + middle.max.x());
+  EXPECT_NEAR(axis - left.min.x(), right.max.x() - axis, 1e-6);
+  EXPECT_NEAR(left.min.y(), right.min.y(), 1e-9);
+  EXPECT_NEAR(layout.min.norm(), 0, 1e-9);
+  EXPECT_NEAR(layout.max.x(), right.max.x(), 1e-9);
+  EXPECT_NEAR(layout.max.y(), 220, 1e-3);
+}
+
+TEST(Layout, TurnsPiecesAsTheyLieOnTheBody) {
+  Pieces pieces;
+  pieces.add([](double u, double v) { return u < 200 && (v < 100 || u < 60); }, 0.7);
+  const Layout layout = pieces.arranged();
+  EXPECT_NEAR(layout.placements[0].angle, -0.7, 1e-9);
+  EXPECT_GT(signedArea(pieces.cutLine(layout, 0)), 0);
+}
+
+TEST(Layout, PutsThePiecesOfTheBackBesideTheFront) {
+  Pieces pieces;
+  // Seen from behind, u grows to the wearer's right: the L has its foot there.
+  pieces.add([](double u, double v) { return u < 200 && (v < 100 || u < 60); }, 0, true);
+  pieces.add([](double u, double v) { return u < 200 && v < 100; });
+  const Layout layout = pieces.arranged();
+  expectNoOverlap(pieces, layout);
+  EXPECT_GT(boxOf(pieces.cutLine(layout, 0)).min.x(), boxOf(pieces.cutLine(layout, 1)).max.x());
+  EXPECT_NEAR(layout.placements[0].angle, 0, 1e-9);
+}
+
+TEST(Layout, PartsManyPiecesThatLieOnTopOfEachOther) {
+  std::mt19937_64 random(7);
+  std::uniform_real_distribution<double> at(0, 300);
+  std::uniform_real_distribution<double> size(50, 200);
+  std::uniform_real_distribution<double> turn(-0.5, 0.5);
+  Pieces pieces;
+  for (int i = 0; i < 40; ++i) {
+    const Vector2d low(at(random), at(random));
+    const Vector2d high = low + Vector2d(size(random), size(random));
+    const Vector2d knee = 0.5 * (low + high);
+    pieces.add(
+        [=](double u, double v) {
+          return u > low.x() - 10 && u < high.x() && v > low.y() - 10 && v < high.y() &&
+                 (u < knee.x() || v < knee.y());
+        },
+        turn(random), i % 3 == 0);
+  }
+  const Layout layout = pieces.arranged();
+  EXPECT_TRUE(layout.findings.empty());
+  expectNoOverlap(pieces, layout);
+  const Layout again = pieces.arranged();
+  for (std::size_t i = 0; i < 40; ++i)
+    EXPECT_EQ(again.placements[i].offset, layout.placements[i].offset);
+}
+
+TEST(Clearance, ShiftOutOfACup) {
+  // A cup open to the right, 10 thick; a square of 10 in its middle.
+  const Points2 cup{{0, 0}, {100, 0}, {100, 10}, {10, 10}, {10, 50}, {100, 50}, {100, 60}, {0, 60}};
+  const Points2 square{{40, 25}, {50, 25}, {50, 35}, {40, 35}};
+  std::vector<ShiftRange> right;
+  addBlockedShifts(square, cup, 0, right);
+  EXPECT_DOUBLE_EQ(leastFreeShift(right), 0);  // it lies free inside
+  Points2 inWall = square;
+  for (Vector2d& p : inWall) p.y() += 20;  // 45..55, in the upper wall
+  std::vector<ShiftRange> blocked;
+  addBlockedShifts(inWall, cup, 0, blocked);
+  EXPECT_NEAR(leastFreeShift(blocked), 60, 1e-9);
+  blocked.clear();
+  addBlockedShifts(inWall, cup, 1, blocked);
+  EXPECT_NEAR(leastFreeShift(blocked), 15, 1e-9);
+  for (Vector2d& p : inWall) p.y() -= 40;  // 5..15, in the lower wall: up into the cup
+  blocked.clear();
+  addBlockedShifts(inWall, cup, 1, blocked);
+  EXPECT_NEAR(leastFreeShift(blocked), 5, 1e-9);
+}
+
+TEST(Clearance, GrownHoldsEverythingNear) {
+  const Points2 ell{{0, 0}, {100, 0}, {100, 40}, {30, 40}, {30, 90}, {0, 90}};
+  const Points2 wide = grown(ell, 5);
+  for (int i = 0; i < 64; ++i) {
+    const double a = 2 * std::numbers::pi * i / 64;
+    for (const Vector2d& p : ell)
+      EXPECT_TRUE(isInside({wide}, p + 5 * Vector2d(std::cos(a), std::sin(a))));
+  }
+  for (const Vector2d& p : wide) EXPECT_LE(EdgeGrid({ell}).nearest(p).distance, 6);
+}
+
+TEST(Clearance, DistanceSeesCrossingAndHolding) {
+  const Points2 a{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
+  const Points2 apart{{13, 4}, {20, 4}, {20, 6}};
+  const Points2 crossing{{5, -5}, {6, -5}, {6, 15}, {5, 15}};
+  const Points2 within{{4, 4}, {5, 4}, {5, 5}};
+  EXPECT_NEAR(distanceBetween(a, apart), 3, 1e-12);
+  EXPECT_EQ(distanceBetween(a, crossing), 0);
+  EXPECT_EQ(distanceBetween(a, within), 0);
+  EXPECT_EQ(distanceBetween(within, a), 0);
+}
+
+}  // namespace
+}  // namespace toile
