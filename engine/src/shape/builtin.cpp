@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "builtin:";
 
-std::array<const BuiltinShape*, 1> shapes() {
-  return {&bentSleeve()};
+std::array<const BuiltinShape*, 2> shapes() {
+  return {&bentSleeve(), &torso()};
 }
 
 }  // namespace

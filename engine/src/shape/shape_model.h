@@ -26,5 +26,6 @@ struct BuiltinShape {
 };
 
 const BuiltinShape& bentSleeve();
+const BuiltinShape& torso();
 
 }  // namespace toile
