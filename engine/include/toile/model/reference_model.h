@@ -7,6 +7,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "toile/core/units.h"
@@ -53,10 +54,20 @@ Result<ReferenceModel> readModel(const std::filesystem::path& path,
 /// The same names on another mesh of the same connectivity. ModelMismatch otherwise.
 Result<ReferenceModel> withMesh(const ReferenceModel& names, std::string name, Mesh mesh);
 
-/// Pairs vertices across the plane normal . x = offset by position and connectivity.
-/// @return a full pairing (an orientation-reversing automorphism), or nullopt.
+/// Pairs vertices across the plane normal . x = offset by position and connectivity: a seed is
+/// found by position, its partner's surroundings follow by walking both sides at once.
+/// @param tolerance mm that a vertex may lie beside its partner's mirror image
+/// @return a full pairing (an orientation-reversing automorphism that is its own inverse), or
+///   nullopt.
+/// @par Cost  O(n) where the mesh is symmetric
 std::optional<VertexData<VertexId>> findSymmetryPairing(const Mesh& mesh,
                                                         const Eigen::Vector3d& normal,
                                                         double offset, double tolerance);
+/// The same without positions, for bodies in any posture: landmarks `x_l` and `x_r` are partners.
+/// One such pair is the seed, all others must agree.
+std::optional<VertexData<VertexId>> findSymmetryPairing(
+    const Mesh& mesh, const std::map<std::string, SurfacePoint>& landmarks);
+/// The mirror plane that fits a pairing best; its normal points to the side that has more of +x.
+Symmetry makeSymmetry(const Mesh& mesh, VertexData<VertexId> partner);
 
 }  // namespace toile
