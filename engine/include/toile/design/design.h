@@ -136,7 +136,9 @@ struct AlongVertices {
   UnknownKeys unknown{};
   friend bool operator==(const AlongVertices&, const AlongVertices&) = default;
 };
-/// The whole loop of a plane section: a girth.
+/// The whole loop of a plane section: a girth. It runs counter-clockwise seen from the tip of the
+/// normal and starts at its front: where the ray from its centroid towards -y (+z if the normal is
+/// nearly along y) leaves it.
 struct AlongSection {
   SectionPlane plane;
   UnknownKeys unknown{};
