@@ -31,21 +31,19 @@ FaceId findRefinedFace(const Mesh& model, const RefinedMesh& refined, const Surf
 }
 
 Result<std::vector<std::vector<int>>> assignRecords(const Document& document,
-                                                    const std::vector<PlacedCurve>&,
+                                                    const std::vector<PlacedCurve>& placed,
                                                     const RefinedMesh& refined,
                                                     const FaceData<std::uint32_t>& regionOfFace,
                                                     std::size_t regionCount) {
   std::vector<std::vector<int>> recordsOf(regionCount);
   const std::vector<PieceRecord>& records = document.design->pieces;
   for (std::size_t r = 0; r < records.size(); ++r) {
-    const auto* point = std::get_if<ModelPoint>(&records[r].anchor);
-    if (point == nullptr) {
-      return Error{ErrorCode::Unsupported,
-                   "piece \"" + records[r].id + "\" is anchored by a name; use a surface point",
-                   {Element::piece(records[r].id)}};
+    const Result<SurfacePoint> anchor = resolvePlace(records[r].anchor, *document.model, placed);
+    if (!anchor) {
+      Error error = anchor.error().during("anchor of piece \"" + records[r].id + "\"");
+      error.where.push_back(Element::piece(records[r].id));
+      return error;
     }
-    const Result<SurfacePoint> anchor = toSurfacePoint(*document.model->mesh, *point);
-    if (!anchor) return anchor.error().during("anchor of piece \"" + records[r].id + "\"");
     const FaceId f = findRefinedFace(*document.model->mesh, refined, *anchor);
     recordsOf[regionOfFace[f]].push_back(static_cast<int>(r));
   }
