@@ -109,6 +109,7 @@ int runProgram(int argc, char** argv) {
   CLI::App app{"Turns lines drawn on a 3D model into flat pieces that fit together.", "toile"};
   Session session;
   addCommonOptions(app, session);
+  addMake(app, session);
   addUnfold(app, session);
   app.require_subcommand(0, 1);
   app.footer(
