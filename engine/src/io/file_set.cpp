@@ -110,6 +110,9 @@ Result<void> FileSet::write(const fs::path& folder,
     fs::path target = fs::weakly_canonical(folder / name, error);
     if (error) target = folder / name;
     if (fs::is_directory(target, error)) return unwritable(folder / name, "it is a folder");
+    if (fs::exists(target, error) && !fs::is_regular_file(target, error)) {
+      return unwritable(folder / name, "it is a device, not a file");  // renaming would replace it
+    }
     targets.push_back(std::move(target));
   }
 

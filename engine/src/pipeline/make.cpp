@@ -51,7 +51,6 @@ Result<void> placeAndCut(Pattern& pattern, Progress* progress) {
   Result<std::vector<PlacedCurve>> curves = placeCurves(design, *pattern.document.model);
   if (!curves) return curves.error();
   if (isCancelled(progress)) return cancelled();
-  tell(progress, "cut the model along them");
   Result<CutResult> result = cut(pattern.document, *curves, progress);
   if (!result) return result.error();
   pattern.curves = std::move(*curves);
