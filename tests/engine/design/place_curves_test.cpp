@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -288,25 +289,43 @@ TEST(PlaceCurves, UsesDataPointsBeforeTheWay) {
   EXPECT_EQ(placeOne(wider, stored).dataPoints, first.dataPoints);
 }
 
-// Two limbs side by side, closer to each other than the curve is smooth: the curve stays on its
-// own.
-TEST(PlaceCurves, StaysOnItsLimb) {
-  Eigen::Matrix3d squeeze = Vector3d(0.72, 1, 1).asDiagonal();
-  const ReferenceModel model =
-      modelOf(test::transformed(test::trousers(32, 24), squeeze, {0, 0, 0}));
-  const Mesh& mesh = *model.mesh;
-  SmoothWay way;  // along the inside of the leg at +x, from front to back and up
-  for (const auto& [y, z] :
-       {std::pair(-60.0, 300.0), {-30.0, 330.0}, {0.0, 350.0}, {35.0, 380.0}}) {
-    // From far inside the leg, so that the control lies on its inner side.
-    const std::vector<RayHit> hits = model.index->rayHits({75, y, z}, {-1, 0, 0});
-    ASSERT_FALSE(hits.empty());
-    way.controls.push_back(toModelPoint(mesh, hits.front().point));
+/// A sheet rolled around z at radius 50, turned back on itself at 240 degrees and led home at
+/// radius 46; 5 degrees a column.
+Mesh hairpin() {
+  constexpr int kArc = 48, kTurn = 4, kRows = 20;
+  const Mesh flat = test::grid(2 * kArc + kTurn, kRows, 5);
+  std::vector<Vector3d> positions;
+  for (const Vector3d& p : flat.positions()) {
+    const int i = static_cast<int>(std::lround(p.x() / 5));
+    const double turned = pi * std::clamp(i - kArc, 0, kTurn) / kTurn;
+    const double angle = pi / 36 * std::min({i, kArc, 2 * kArc + kTurn - i});
+    const double radius = 48 + 2 * std::cos(turned), along = 2 * std::sin(turned);
+    positions.emplace_back(radius * std::cos(angle) - along * std::sin(angle),
+                           radius * std::sin(angle) + along * std::cos(angle), p.y());
   }
-  const PlacedCurve inseam = placeOne(model, curve("inseam", way));
-  for (const SurfacePoint& p : inseam.path.points) {
-    EXPECT_GT(position(mesh, p).x(), 0);
-    EXPECT_LT(position(mesh, p).z(), 400);
+  return flat.withPositions(positions);
+}
+
+// Two layers closer to each other than the curve's chords are to its own: it stays on its own.
+TEST(PlaceCurves, StaysOnItsLayer) {
+  const ReferenceModel model = modelOf(hairpin());
+  const Mesh& mesh = *model.mesh;
+  SmoothWay way;
+  std::vector<Vector3d> places;
+  for (const std::size_t column : {4U, 16U, 28U, 40U}) {
+    const VertexId v(10 * 101 + column);
+    way.controls.push_back(ModelPoint{v});
+    places.push_back(mesh.position(v));
+  }
+  // The trap is real: the plain closest point of the first middle lies on the inner layer.
+  const std::vector<Vector3d> fine = subdivide<3>(places, false, SubdivisionRule::Auto);
+  const Vector3d plain = model.index->closestPoint(fine[4]).position;
+  ASSERT_LT(std::hypot(plain.x(), plain.y()), 47);
+
+  const PlacedCurve girth = placeOne(model, curve("girth", way));
+  for (const SurfacePoint& p : girth.path.points) {
+    const Vector3d at = position(mesh, p);
+    EXPECT_GT(std::hypot(at.x(), at.y()), 49);
   }
 }
 
