@@ -8,9 +8,9 @@
 
 namespace toile::unfolding {
 
-/// Wire edges closer to each other than this touch, they do not cross: the two sides of a dart
-/// without intake lie on each other up to rounding.
-inline constexpr double kContactDepthMm = 1e-6;
+/// Wire edges that overlap by less than this touch, they do not cross: the two sides of a dart
+/// without intake lie on each other. No cutter sees it.
+inline constexpr double kContactDepthMm = 1e-3;
 
 /// Pairs of wire edges (indices in Problem::wireEdges) that cross without sharing a node,
 /// ascending. Exact predicates; found by a grid, so the cost is about linear.

@@ -23,8 +23,16 @@ using namespace unfolding;
 /// 1.06 at the least favourable piece).
 constexpr double kBucklingLimit = 1.05;
 constexpr int kMaxStiffenings = 6;
+/// Waves longer than this share of the piece's size are its shape, not crinkles.
+constexpr double kMaxRaisedStiffness = 0.2;
+/// How often the stiffness is doubled to part wires that cross; most crossings are the surface's
+/// own overlap, which no stiffness cures.
+constexpr int kMaxPartings = 2;
 /// Mean energy per area from which a piece should not be cut in one.
 constexpr double kHighStrain = 0.3;
+/// Length errors (relative) that the last projection can take away, and that it must leave.
+constexpr double kNearEnoughToProject = 1e-3;
+constexpr double kExact = 1e-9;
 constexpr std::size_t kMaxNamed = 24;
 
 Result<void> checkOptions(const UnfoldOptions& options) {
@@ -96,19 +104,21 @@ Error infeasible(const Piece& piece, const Problem& problem, const Plane& q,
           std::move(where)};
 }
 
-/// Greatest compression of a wire as a share of the load at which a bar of the wires' stiffness
-/// waves in the cloth beside it (docs/unfolding.md). An inner wire has cloth and stiffness on both
-/// sides and bears twice as much.
-double bucklingRatio(const Problem& problem, const Eigen::VectorXd& lambda, double areaWeight,
-                     double waveLength) {
+/// The compression at which a bar of the wires' stiffness waves in the cloth beside it
+/// (docs/unfolding.md).
+double bucklingLoad(double areaWeight, double waveLength) {
   const double h = 2 * (areaWeight + 1) / (areaWeight + 2);
-  const double load = 6 * std::cbrt(h * h) * waveLength;
-  double ratio = 0;
+  return 6 * std::cbrt(h * h) * waveLength;
+}
+
+/// An inner wire has cloth and stiffness on both sides and bears twice as much.
+double highestCompression(const Problem& problem, const Eigen::VectorXd& lambda) {
+  double highest = 0;
   for (std::size_t i = 0; i < problem.wireEdges.size(); ++i) {
-    const double bears = problem.wireEdges[i].inner ? 2 * load : load;
-    ratio = std::max(ratio, -lambda[static_cast<Eigen::Index>(i)] / bears);
+    const double compression = -lambda[static_cast<Eigen::Index>(i)];
+    highest = std::max(highest, problem.wireEdges[i].inner ? compression / 2 : compression);
   }
-  return ratio;
+  return highest;
 }
 
 struct Solution {
@@ -147,31 +157,38 @@ Result<Solution> solve(const Piece& piece, const Problem& problem, const UnfoldO
   solution.state.q = std::move(*start);
   solution.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths.count()));
   solution.wireStiffness = options.wireStiffness;
+  const double highest = std::max(kMaxRaisedStiffness, options.wireStiffness);
+  std::optional<Solution> crossed;  // the first one, to come back to when parting does not help
+  int partings = 0;
   for (int round = 0;; ++round) {
     const double waveLength = solution.wireStiffness * std::sqrt(problem.area);
     bending.setStiffness(waveLength * waveLength * waveLength);
     const NewtonEnd end = newton.minimise(solution.state, options.maxSteps, progress);
     if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
-    const double error = lengths.worst(lengths.residual(solution.state.q));
-    if (end == NewtonEnd::Stalled || error > 1e-3) {
-      return infeasible(piece, problem, solution.state.q, lengths);
-    }
     solution.finished = end == NewtonEnd::Converged;
-    if (newton.project(solution.state) > 1e-9) {
-      return infeasible(piece, problem, solution.state.q, lengths);
-    }
-    solution.buckling = solution.wireStiffness > 0 ? bucklingRatio(problem, solution.state.lambda,
-                                                                   options.areaWeight, waveLength)
-                                                   : 0;
+    const bool failed = end == NewtonEnd::Stalled ||
+                        lengths.worst(lengths.residual(solution.state.q)) > kNearEnoughToProject ||
+                        newton.project(solution.state) > kExact;
+    if (failed && !crossed) return infeasible(piece, problem, solution.state.q, lengths);
     solution.crossings = findCrossings(problem, solution.state.q);
-    double raise = 1;
-    if (solution.buckling > kBucklingLimit) raise = solution.buckling;
-    if (!solution.crossings.empty()) raise = std::max(raise, 2.0);
-    if (raise == 1 || round == kMaxStiffenings || !solution.finished ||
-        solution.wireStiffness == 0 || solution.wireStiffness * raise > 10) {
+    if (crossed && (failed || (!solution.crossings.empty() && partings == kMaxPartings))) {
+      crossed->state.steps = solution.state.steps;
+      solution = *std::move(crossed);
+      bending.moveTo(solution.state.q);
       break;
     }
-    solution.wireStiffness *= raise;
+    const double load = bucklingLoad(options.areaWeight, waveLength);
+    solution.buckling = load > 0 ? highestCompression(problem, solution.state.lambda) / load : 0;
+    if (round == kMaxStiffenings || !solution.finished || solution.wireStiffness == 0) break;
+    if (!solution.crossings.empty()) {
+      if (!crossed) crossed = solution;
+      ++partings;
+      solution.wireStiffness *= 2;
+    } else if (!crossed && solution.buckling > kBucklingLimit && solution.wireStiffness < highest) {
+      solution.wireStiffness = std::min(highest, solution.wireStiffness * solution.buckling);
+    } else {
+      break;
+    }
   }
   solution.meanEnergy = strain.energy(solution.state.q) / problem.area;
   solution.stable = newton.isStableAt(solution.state);
