@@ -143,6 +143,136 @@ TEST(Unfold, KeepsEveryWireLengthOfACurvedPieceWithFeatures) {
   EXPECT_LE(flat->check.maxLengthError, 1e-12);
 }
 
+/// A dome with a slope, so that its up is not in doubt.
+Mesh dome() {
+  return test::heightField(14, 12, 10, [](double x, double y) {
+    return 0.7 * y + 30 * std::exp(-((x - 60) * (x - 60) + (y - 70) * (y - 70)) / 3000);
+  });
+}
+
+TEST(Unfold, DoesNotDependOnTheNumbering) {
+  const Mesh mesh = dome();
+  const std::size_t n = mesh.vertexCount();
+  std::vector<Eigen::Vector3d> positions(n);
+  const auto renumbered = [&](VertexId v) { return VertexId((v.index() * 7 + 11) % n); };
+  ASSERT_NE(n % 7, 0U);
+  for (std::size_t v = 0; v < n; ++v) {
+    positions[renumbered(VertexId(v)).index()] = mesh.position(VertexId(v));
+  }
+  std::vector<Triangle> triangles;
+  for (std::size_t f = mesh.faceCount(); f-- > 0;) {
+    const Triangle& t = mesh.triangles()[f];
+    triangles.push_back({renumbered(t[1]), renumbered(t[2]), renumbered(t[0])});
+  }
+  const Result<FlatPiece> flat = unfold(test::patchOf(mesh));
+  const Result<FlatPiece> other = unfold(test::patchOf(*makeMesh(positions, triangles)));
+  ASSERT_TRUE(flat && other);
+  EXPECT_GT(flat->meanAreaError, 0.005);
+  // Both stop where the energy falls by less than 1e-4 of itself, on slightly other ways.
+  for (std::size_t v = 0; v < n; ++v) {
+    EXPECT_LT((flat->position[VertexId(v)] - other->position[renumbered(VertexId(v))]).norm(),
+              0.02);
+  }
+}
+
+TEST(Unfold, MovesAndScalesWithThePiece) {
+  const Mesh mesh = dome();
+  const Result<FlatPiece> flat = unfold(test::patchOf(mesh));
+  const Eigen::AngleAxisd turn(2.5, Eigen::Vector3d::UnitZ());
+  const Result<FlatPiece> moved = unfold(test::patchOf(
+      test::transformed(mesh, 3 * turn.toRotationMatrix(), Eigen::Vector3d(500, -200, 900))));
+  ASSERT_TRUE(flat && moved);
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    EXPECT_LT((3 * flat->position[VertexId(v)] - moved->position[VertexId(v)]).norm(), 1e-6);
+  }
+  EXPECT_NEAR(flat->meanAreaError, moved->meanAreaError, 1e-9);
+}
+
+/// A cap of a sphere around the z axis, from the pole to a level circle.
+Mesh smoothCap(double radius, double halfAngle, int segments, int rows) {
+  std::vector<Eigen::Vector3d> positions{{0, 0, radius}};
+  for (int j = 1; j <= rows; ++j) {
+    for (int i = 0; i < segments; ++i) {
+      const double polar = halfAngle * j / rows, around = 2 * pi * i / segments;
+      positions.push_back(radius * Eigen::Vector3d(std::sin(polar) * std::cos(around),
+                                                   std::sin(polar) * std::sin(around),
+                                                   std::cos(polar)));
+    }
+  }
+  const auto at = [&](int i, int j) {
+    return VertexId(static_cast<std::size_t>(1 + (j - 1) * segments + i % segments));
+  };
+  std::vector<Triangle> triangles;
+  for (int i = 0; i < segments; ++i) {
+    triangles.push_back({VertexId(0), at(i, 1), at(i + 1, 1)});
+    for (int j = 1; j < rows; ++j) {
+      triangles.push_back({at(i, j), at(i, j + 1), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i + 1, j)});
+    }
+  }
+  return *makeMesh(positions, triangles);
+}
+
+// No outline of the rim's length holds more than a circle of that length does: the area that is
+// missing is known beforehand.
+TEST(Unfold, ReachesTheAreaThatTheRimOfACapForces) {
+  const Mesh mesh = smoothCap(100, pi / 3, 48, 12);
+  const Result<FlatPiece> flat = unfold(test::patchOf(mesh));
+  ASSERT_TRUE(flat) << flat.error();
+  double rim = 0, surface = 0;
+  for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
+    if (mesh.isBorder(EdgeId(e))) rim += mesh.length(EdgeId(e));
+  }
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) surface += mesh.area(FaceId(f));
+  const double forced = 1 - rim * rim / (4 * pi) / surface;
+  EXPECT_GT(flat->meanAreaError, forced);
+  EXPECT_LT(flat->meanAreaError, forced + 0.01);
+  EXPECT_TRUE(flat->check.passes());
+}
+
+TEST(Unfold, AreaWeightTradesAnglesForArea) {
+  const Piece piece = test::patchOf(test::saddle(16));
+  double last = 1;
+  for (const double weight : {0.0, 2.0, 10.0}) {
+    const Result<FlatPiece> flat = unfold(piece, {.areaWeight = weight});
+    ASSERT_TRUE(flat) << flat.error();
+    EXPECT_LT(flat->meanAreaError, 0.9 * last) << weight;
+    last = flat->meanAreaError;
+  }
+}
+
+TEST(Unfold, TargetsCountNotTheLengthsOnTheSurface) {
+  const Mesh mesh = test::irregularGrid(10, 8);
+  Piece piece = test::patchOf(mesh);
+  for (double& target : piece.wires[0].targetLength) target *= 0.95;
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  EXPECT_LE(flat->check.maxLengthError, 1e-12);
+  EXPECT_GT(flat->meanAreaError, 0.02);  // the outline gets rounder to hold more
+  const Wire& wire = piece.wires[0];
+  for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
+    EXPECT_NEAR((flat->position[wire.vertices[i]] - flat->position[wire.vertices[i + 1]]).norm(),
+                0.95 * wire.bodyLength[i], 1e-10);
+  }
+}
+
+TEST(Unfold, BearsNeedleTriangles) {
+  Mesh mesh = dome();
+  std::vector<Eigen::Vector3d> positions = mesh.positions();
+  for (auto& p : positions) p.x() /= 200;
+  const Result<FlatPiece> flat = unfold(test::patchOf(mesh.withPositions(positions)));
+  ASSERT_TRUE(flat) << flat.error();
+  EXPECT_TRUE(flat->check.passes());
+  EXPECT_LE(flat->check.maxLengthError, 1e-11);
+}
+
+TEST(Unfold, RunsTwiceToTheSameBits) {
+  const Piece piece = test::patchOf(dome());
+  const Result<FlatPiece> first = unfold(piece), second = unfold(piece);
+  ASSERT_TRUE(first && second);
+  EXPECT_EQ(first->position, second->position);
+}
+
 // A flat end of a tube cannot close in the plane; the hole of a ring can.
 TEST(Unfold, RefusesATubeAndNamesItsEnds) {
   const Piece piece = test::patchOf(test::cylinder(50, 100, 20, 5));
