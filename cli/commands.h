@@ -7,6 +7,7 @@ namespace toile::cli {
 
 // One per file of the same name; listed in main.cpp in the order of the help text.
 void addMake(CLI::App& app, Session& session);
+void addCheck(CLI::App& app, Session& session);
 void addUnfold(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

@@ -110,6 +110,7 @@ int runProgram(int argc, char** argv) {
   Session session;
   addCommonOptions(app, session);
   addMake(app, session);
+  addCheck(app, session);
   addUnfold(app, session);
   app.require_subcommand(0, 1);
   app.footer(

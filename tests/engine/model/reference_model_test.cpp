@@ -10,6 +10,7 @@
 
 #include "support/meshes.h"
 #include "support/result_printing.h"
+#include "support/run_program.h"
 #include "support/test_data.h"
 #include "toile/core/file.h"
 #include "toile/mesh/mesh_file.h"
@@ -29,31 +30,12 @@ std::string textOf(const std::filesystem::path& path) {
   return std::move(*text);
 }
 
-/// A folder that is gone after the test.
-class Folder {
- public:
-  Folder() : path_(std::filesystem::temp_directory_path() / name()) {
-    std::filesystem::create_directories(path_);
-  }
-  ~Folder() {
-    std::error_code ignored;
-    std::filesystem::remove_all(path_, ignored);
-  }
-  Folder(const Folder&) = delete;
-  Folder& operator=(const Folder&) = delete;
-  [[nodiscard]] std::filesystem::path write(const std::string& file,
-                                            const std::string& text) const {
-    std::ofstream(path_ / file, std::ios::binary) << text;
-    return path_ / file;
-  }
-
- private:
-  static std::string name() {
-    return std::string("toile-model-test-") +
-           testing::UnitTest::GetInstance()->current_test_info()->name();
-  }
-  std::filesystem::path path_;
-};
+/// Writes a file into the folder.
+std::filesystem::path write(const test::TemporaryFolder& folder, const std::string& file,
+                            const std::string& text) {
+  test::writeText(folder.path() / file, text);
+  return folder.path() / file;
+}
 
 TEST(ModelCurves, OfTheBodiesHaveTheirKnownLengths) {
   TOILE_TEST_DATA_OR_SKIP(path, "bodies/curves.json");
@@ -240,9 +222,9 @@ std::string squareWithoutUnits() {
 }
 
 TEST(ReadModel, TakesMeshUnitNamesAndSymmetryFromItsFile) {
-  const Folder folder;
-  (void)folder.write("square.obj", squareWithoutUnits());
-  const Result<ReferenceModel> model = readModel(folder.write("square.model.json", kModelJson));
+  const test::TemporaryFolder folder;
+  write(folder, "square.obj", squareWithoutUnits());
+  const Result<ReferenceModel> model = readModel(write(folder, "square.model.json", kModelJson));
   ASSERT_TRUE(model) << model.error();
   EXPECT_EQ(model->name, "square");
   EXPECT_EQ(model->mesh->vertexCount(), 9U);
@@ -257,12 +239,12 @@ TEST(ReadModel, TakesMeshUnitNamesAndSymmetryFromItsFile) {
 }
 
 TEST(ReadModel, RefusesWhatDoesNotFit) {
-  const Folder folder;
-  (void)folder.write("square.obj", squareWithoutUnits());
+  const test::TemporaryFolder folder;
+  write(folder, "square.obj", squareWithoutUnits());
   const auto with = [&](const std::string& from, const std::string& to) {
     std::string text = kModelJson;
     text.replace(text.find(from), from.size(), to);
-    return readModel(folder.write("bad.model.json", text));
+    return readModel(write(folder, "bad.model.json", text));
   };
   struct Case {
     const char* from;
@@ -290,7 +272,7 @@ TEST(ReadModel, RefusesWhatDoesNotFit) {
     EXPECT_NE(model.error().message.find(c.message), std::string::npos) << model.error();
   }
   const auto contradiction =
-      readModel(folder.write("square.model.json", kModelJson), FileUnit::Metre);
+      readModel(write(folder, "square.model.json", kModelJson), FileUnit::Metre);
   ASSERT_FALSE(contradiction);
   EXPECT_EQ(contradiction.error().code, ErrorCode::InvalidArgument);
 }
