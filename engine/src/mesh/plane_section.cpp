@@ -14,7 +14,7 @@ namespace {
 class SectionTracer {
  public:
   SectionTracer(const Mesh& mesh, const Eigen::Vector3d& normal, double offset)
-      : mesh_(mesh), height_(mesh.vertexCount()), isUsed_(mesh.halfedgeCount(), false) {
+      : mesh_(mesh), height_(mesh.vertexCount()), isUsed_(mesh.faceCount(), 0) {
     // Heights this small are rounding; such vertices lie on the plane.
     const double largest =
         std::max(mesh.boxMin().cwiseAbs().maxCoeff(), mesh.boxMax().cwiseAbs().maxCoeff());
@@ -26,15 +26,21 @@ class SectionTracer {
   }
 
   std::vector<SurfacePath> trace() {
+    std::vector<HalfedgeId> entries;  // one for each face that is crossed
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      const auto& [a, b, c] = mesh_.vertices(FaceId(f));
+      if (isBelow(a) == isBelow(b) && isBelow(b) == isBelow(c)) continue;
+      HalfedgeId h = mesh_.halfedge(FaceId(f), 0);
+      while (!leadsDown(h)) h = mesh_.next(h);
+      entries.push_back(h);
+    }
     std::vector<SurfacePath> paths;
     // Open ones first: they begin where a crossed side has no face on the other side.
-    for (std::size_t i = 0; i < mesh_.halfedgeCount(); ++i) {
-      const HalfedgeId h(i);
-      if (leadsDown(h) && !mesh_.opposite(h).isValid()) take(h, paths);
+    for (const HalfedgeId h : entries) {
+      if (!mesh_.opposite(h).isValid()) take(h, paths);
     }
-    for (std::size_t i = 0; i < mesh_.halfedgeCount(); ++i) {
-      const HalfedgeId h(i);
-      if (leadsDown(h) && !isUsed_[i]) take(h, paths);
+    for (const HalfedgeId h : entries) {
+      if (isUsed_[mesh_.face(h)] == 0) take(h, paths);
     }
     std::vector<double> lengths;
     std::vector<std::size_t> order;
@@ -92,7 +98,7 @@ class SectionTracer {
     HalfedgeId enter = start;
     bool isCut = false;
     do {
-      isUsed_[enter.index()] = true;
+      isUsed_[mesh_.face(enter)] = 1;
       HalfedgeId leave = mesh_.next(enter);
       if (!leadsUp(leave)) leave = mesh_.next(leave);
       isCut = isCut || cuts(enter, leave);
@@ -139,7 +145,7 @@ class SectionTracer {
 
   const Mesh& mesh_;
   VertexData<double> height_;
-  std::vector<bool> isUsed_;  // halfedges that a path entered through
+  FaceData<char> isUsed_;  // a path leads through it
 };
 
 }  // namespace
