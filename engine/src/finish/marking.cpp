@@ -163,7 +163,7 @@ std::array<Eigen::Vector2d, 2> grainLine(const std::vector<Points2>& loops,
                                          const Eigen::Vector2d& labelPosition) {
   constexpr double kFromEdgeMm = 10;
   constexpr double kPart = 0.6;    // of the height: the least that the trade asks for
-  constexpr double kAsideMm = 30;  // so that the label's text stands clear of it
+  constexpr double kAsideMm = 45;  // so that the label's text stands clear of it
   const Box2 box = boxOf(loops.front());
   const double height = box.size().y();
 

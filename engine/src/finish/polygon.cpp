@@ -114,6 +114,24 @@ Box2 boxOf(std::span<const Eigen::Vector2d> points) {
   return box;
 }
 
+// Clips as Liang and Barsky do.
+bool crosses(const Box2& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  double from = 0;
+  double to = 1;
+  for (int k = 0; k < 2; ++k) {
+    const double d = b[k] - a[k];
+    if (d == 0) {
+      if (a[k] < box.min[k] || a[k] > box.max[k]) return false;
+      continue;
+    }
+    const double t0 = (box.min[k] - a[k]) / d;
+    const double t1 = (box.max[k] - a[k]) / d;
+    from = std::max(from, std::min(t0, t1));
+    to = std::min(to, std::max(t0, t1));
+  }
+  return from <= to;
+}
+
 EdgeGrid::EdgeGrid(const std::vector<Points2>& loops) {
   for (const Points2& loop : loops)
     for (std::size_t i = 0; i < loop.size(); ++i)

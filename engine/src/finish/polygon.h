@@ -43,6 +43,9 @@ struct Box2 {
 /// Of no points: a box at the origin.
 [[nodiscard]] Box2 boxOf(std::span<const Eigen::Vector2d> points);
 
+/// Whether a segment has points in a box.
+[[nodiscard]] bool crosses(const Box2& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b);
+
 /// Finds the nearest edge of closed polygons; a uniform grid over their edges.
 class EdgeGrid {
  public:

@@ -12,6 +12,7 @@
 #include "io/ascii.h"
 #include "io/dxf_text.h"
 #include "io/file_date.h"
+#include "io/sheet_drawing.h"
 #include "toile/core/version.h"
 
 namespace toile {
@@ -170,7 +171,7 @@ class Writer {
   }
 
   /// What people read on the plotted piece: the label above the system text, and beside each seam
-  /// its number, the same on both pieces that meet there.
+  /// its letter, the same on both pieces that meet there.
   void writeAnnotation(std::size_t i) {
     const PatternPiece& piece = pattern_.pieces[i];
     const Placement& placement = pattern_.layout.placements[i];
@@ -190,7 +191,7 @@ class Writer {
       const Eigen::Vector2d inward(-along.y(), along.x());
       constexpr double kInsideMm = 3;
       out_.text(kAnnotation, toDxf(placement.apply(0.5 * (a + b) + kInsideMm * inward)),
-                kEdgeTextHeightMm, std::to_string(run.seam),
+                kEdgeTextHeightMm, seamLetters(run.seam),
                 std::atan2(along.y(), along.x()) + placement.angle);
     }
   }

@@ -192,11 +192,11 @@ class Writer {
                "frame so that no gap is left.", "Tiles that hold nothing are not printed.", "",
                "Every piece lies with the outside of the material up,",
                "arrow of the tile upwards as on the body."},
-              90);
+              84);
     drawLegend({5, 88});
     drawLines(
         {5, 34}, 3.6, 5.6,
-        {"Numbers beside a seam are the same on both pieces", "that are sewn together there."}, 90);
+        {"Letters beside a seam are the same on both pieces", "that are sewn together there."}, 90);
     const double column = kFourInches + 6;
     const double width = kTileWidthMm - column;
     canvas_.textFromLeft({column, top - 25}, 4.2, "Tiles", true);
@@ -228,7 +228,7 @@ class Writer {
     drawPieces();
     const Vector2d middle = 0.5 * (tile.box.min + tile.box.max);
     const auto mark = [&](const Vector2d& at, const Vector2d& inward, int row, int column) {
-      if (row < 0 || column < 0 || row >= plan.rows || column >= plan.columns) return;
+      if (plan.find(row, column) == nullptr) return;
       drawDiamond(at, inward, tileName(row, column));
     };
     mark({tile.box.min.x(), middle.y()}, {1, 0}, tile.row, tile.column - 1);

@@ -8,6 +8,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "io/pdf_update.h"
+
 namespace toile {
 namespace {
 
@@ -68,6 +70,7 @@ void PdfCanvas::setTitle(const std::string& utf8) {
 void PdfCanvas::setDate(const std::string& iso) {
   cairo_pdf_surface_set_metadata(state_->surface.get(), CAIRO_PDF_METADATA_CREATE_DATE,
                                  iso.c_str());
+  hasDate_ = true;
 }
 
 void PdfCanvas::beginPage(double widthMm, double heightMm) {
@@ -225,7 +228,7 @@ Result<std::string> PdfCanvas::finish() {
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("the PDF could not be drawn: {}", cairo_status_to_string(status)),
                  {}};
-  return std::move(s.bytes);
+  return hasDate_ ? std::move(s.bytes) : withoutCreationDate(std::move(s.bytes));
 }
 
 }  // namespace toile

@@ -20,7 +20,8 @@ class PdfCanvas {
   PdfCanvas& operator=(const PdfCanvas&) = delete;
 
   void setTitle(const std::string& utf8);
-  void setDate(const std::string& iso);  ///< "2026-01-31T00:00:00Z"
+  /// "2026-01-31T00:00:00Z"; a document without has no date, not the clock's.
+  void setDate(const std::string& iso);
 
   /// Begins a page; what follows is drawn at p + shift from its lower left corner.
   void beginPage(double widthMm, double heightMm);
@@ -48,6 +49,7 @@ class PdfCanvas {
   Eigen::Vector2d shift_{0, 0};
   double pageHeight_ = 0;
   bool hasPage_ = false;
+  bool hasDate_ = false;
   bool isClipped_ = false;
   Box2 clip_;
 };

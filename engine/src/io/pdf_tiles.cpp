@@ -11,24 +11,6 @@ namespace {
 
 constexpr double kAroundMm = 3;  ///< free paper around the pieces
 
-/// Clips a segment to a box (Liang and Barsky); whether anything is left.
-bool crosses(const Box2& box, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
-  double from = 0;
-  double to = 1;
-  for (int k = 0; k < 2; ++k) {
-    const double d = b[k] - a[k];
-    if (d == 0) {
-      if (a[k] < box.min[k] || a[k] > box.max[k]) return false;
-      continue;
-    }
-    const double t0 = (box.min[k] - a[k]) / d;
-    const double t1 = (box.max[k] - a[k]) / d;
-    from = std::max(from, std::min(t0, t1));
-    to = std::min(to, std::max(t0, t1));
-  }
-  return from <= to;
-}
-
 std::vector<char> usedTiles(const SheetDrawing& sheet, const TilePlan& plan) {
   std::vector<char> used(static_cast<std::size_t>(plan.rows * plan.columns), 0);
   const auto at = [&](int row, int column) -> char& {

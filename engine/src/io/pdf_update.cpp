@@ -63,4 +63,13 @@ std::string withoutPrintScaling(std::string pdf) {
   return pdf + update;
 }
 
+std::string withoutCreationDate(std::string pdf) {
+  // The information dictionary is among the last objects; strings of pages are compressed.
+  const std::size_t begin = pdf.rfind("/CreationDate (");
+  if (begin == std::string::npos) return pdf;
+  const std::size_t end = pdf.find(')', begin);
+  if (end != std::string::npos) pdf.replace(begin, end + 1 - begin, end + 1 - begin, ' ');
+  return pdf;
+}
+
 }  // namespace toile

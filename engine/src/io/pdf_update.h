@@ -11,4 +11,8 @@ namespace toile {
 /// is returned as it is.
 [[nodiscard]] std::string withoutPrintScaling(std::string pdf);
 
+/// Blanks the creation time in the document's information, byte for byte, so that every offset in
+/// the file stays right.
+[[nodiscard]] std::string withoutCreationDate(std::string pdf);
+
 }  // namespace toile

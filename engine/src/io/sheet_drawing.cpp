@@ -27,6 +27,7 @@ constexpr double kNameSizeMm = 6;
 constexpr double kLabelSizeMm = 4;
 constexpr double kEdgeSizeMm = 3.2;
 constexpr double kNotchSizeMm = 2.6;
+constexpr double kDoubleNotchMm = 8;
 constexpr double kLineFeed = 1.35;
 
 const LineStyle& styleOf(CurveKind kind) {
@@ -186,10 +187,26 @@ class PieceArtist {
       out_.lines.push_back(std::move(line));
       // Of a double notch one has the number; the two sides of a dart have one each.
       if (notch.number == 0 || !numbered.emplace(notch.number, sideKey(notch)).second) continue;
-      const Vector2d middle = at + (notch.depth + 0.8 * kNotchSizeMm) * inward;
+      // Beside the notch, within the allowance where there is one.
+      const double allowance = (notch.onSewLine - notch.position).norm();
+      const double depth = allowance > kNotchSizeMm ? 0.5 * allowance : 0.9 * kNotchSizeMm;
+      const Vector2d aside(inward.y(), -inward.x());
+      const std::string number = std::to_string(notch.number);
+      const double away =
+          0.8 + 0.5 * estimatedWidth(number, kNotchSizeMm) + (isDouble(notch) ? kDoubleNotchMm : 0);
+      const Vector2d middle = at + depth * inward + away * aside;
       out_.texts.push_back({SheetRole::Notch, middle - Vector2d(0, 0.36 * kNotchSizeMm), 0,
-                            kNotchSizeMm, false, std::to_string(notch.number)});
+                            kNotchSizeMm, false, number});
     }
+  }
+
+  /// Whether its twin of a double notch stands to the same side as the number.
+  [[nodiscard]] bool isDouble(const Notch& notch) const {
+    const Vector2d aside(notch.direction.y(), -notch.direction.x());
+    return std::any_of(piece_.notches.begin(), piece_.notches.end(), [&](const Notch& other) {
+      const double apart = (other.position - notch.position).dot(aside);
+      return other.number == notch.number && apart > 1 && apart < 1.5 * kDoubleNotchMm;
+    });
   }
 
   /// Tells apart notches of one number that do not stand side by side.
@@ -237,7 +254,24 @@ class PieceArtist {
     return true;
   }
 
-  /// As large as fits, upright if it can be read so, else along the piece.
+  /// Whether an inner line or the grain line runs through a rectangle.
+  [[nodiscard]] bool isCrossed(const Vector2d& centre, const Vector2d& along, double width,
+                               double height) const {
+    const Vector2d up(-along.y(), along.x());
+    const auto local = [&](const Vector2d& p) -> Vector2d {
+      return {(p - centre).dot(along) / width, (p - centre).dot(up) / height};
+    };
+    const Box2 unit{{-0.5, -0.5}, {0.5, 0.5}};
+    for (const SheetLine& line : out_.lines) {
+      if (line.role != SheetRole::Internal && line.role != SheetRole::Grain) continue;
+      for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
+        if (crosses(unit, local(line.points[i]), local(line.points[i + 1]))) return true;
+    }
+    return false;
+  }
+
+  /// As large as fits, clear of inner lines if there is room beside them; upright if it can be read
+  /// so, else along the piece.
   void drawLabel() {
     if (piece_.label.empty()) return;
     double width = 0;
@@ -247,37 +281,49 @@ class PieceArtist {
       width = std::max(width, estimatedWidth(piece_.label[i], size));
       height += kLineFeed * size;
     }
-    const Vector2d centre = placement_.apply(piece_.labelPosition);
+    const Vector2d inmost = placement_.apply(piece_.labelPosition);
+    std::vector<Vector2d> centres{inmost};
+    for (const double dy : {0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.4, -2.4, 3.4, -3.4})
+      for (const double dx : {0.0, 0.35, -0.35, 0.7, -0.7})
+        centres.push_back(inmost + Vector2d(dx * width, dy * height));
     constexpr std::array<double, 8> kScales{1, 0.85, 0.7, 0.6, 0.5, 0.42, 0.36, 0.3};
     constexpr std::array<double, 4> kAngles{0, 0.5 * pi, 0.25 * pi, -0.25 * pi};
-    constexpr double kReadable = 0.6;  // below, a turned label may do better
+    constexpr double kTurned = 0.6;   // what a turned label is worth against an upright one
+    constexpr double kCrossed = 0.5;  // the same for one that a line runs through
     constexpr double kRoom = 1.06;
-    double bestScale = 0;
+    double best = 0;
+    double bestScale = kScales.back();
     double bestAngle = 0;
+    Vector2d bestCentre = inmost;
     for (const double angle : kAngles) {
-      if (bestScale >= kReadable) break;
       const Vector2d along(std::cos(angle), std::sin(angle));
       for (const double scale : kScales) {
-        if (scale <= bestScale) break;
-        if (!holds(centre, along, kRoom * scale * width, kRoom * scale * height)) continue;
-        bestScale = scale;
-        bestAngle = angle;
-        break;
+        const double most = scale * (angle == 0 ? 1 : kTurned);
+        for (const Vector2d& centre : centres) {
+          if (most <= best) break;
+          const double w = kRoom * scale * width;
+          const double h = kRoom * scale * height;
+          const double worth = most * (isCrossed(centre, along, w, h) ? kCrossed : 1);
+          if (worth <= best || !holds(centre, along, w, h)) continue;
+          best = worth;
+          bestScale = scale;
+          bestAngle = angle;
+          bestCentre = centre;
+        }
       }
     }
-    if (bestScale == 0) bestScale = kScales.back();
     const Vector2d down(std::sin(bestAngle), -std::cos(bestAngle));
     double below = -0.5 * height;
     for (std::size_t i = 0; i < piece_.label.size(); ++i) {
       const double size = i == 0 ? kNameSizeMm : kLabelSizeMm;
       below += kLineFeed * size;
-      const Vector2d at = centre + bestScale * (below - 0.3 * size) * down;
+      const Vector2d at = bestCentre + bestScale * (below - 0.3 * size) * down;
       out_.texts.push_back(
           {SheetRole::Text, at, bestAngle, bestScale * size, i == 0, piece_.label[i]});
     }
   }
 
-  /// Beside the middle of each seam: its number, its curve and the piece sewn on.
+  /// Beside each seam: its letter, its curve and the piece sewn on.
   void drawEdgeNames() {
     const std::vector<OutlineRun>& runs = piece_.runs;
     std::vector<char> done(runs.size(), 0);
@@ -295,20 +341,35 @@ class PieceArtist {
         const Points2 more = pointsOf(runs[next]);
         points.insert(points.end(), more.begin() + 1, more.end());
       }
-      const std::string number = runs[r].seam == 0 ? "" : fmt::format("{}", runs[r].seam);
+      const std::string letter = seamLetters(runs[r].seam);
       const std::string name = curveName(runs[r].curve);
       const bool isOwn = runs[r].mate == piece_.id;
       const std::string mate =
           runs[r].mate.empty() || isOwn ? "" : " to " + pieceName(runs[r].mate);
       const double length = lengthOf(points);
-      for (const std::string& text : {number.empty() ? name : number + "  " + name + mate,
-                                      number.empty() ? name : number + "  " + name, number}) {
+      for (const std::string& text : {letter.empty() ? name : letter + "  " + name + mate,
+                                      letter.empty() ? name : letter + "  " + name, letter}) {
         const double width = estimatedWidth(text, kEdgeSizeMm);
         if (text.empty() || width > 0.8 * length) continue;
-        placeEdgeName(points, 0.5 * length, width, text);
+        placeEdgeName(points, freeMiddle(points, length, width), width, text);
         break;
       }
     }
+  }
+
+  /// Where along a seam its name meets no notch, near the middle if possible.
+  [[nodiscard]] double freeMiddle(const Points2& points, double length, double width) const {
+    for (const double part : {0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78}) {
+      const double middle = part * length;
+      if (middle < 0.55 * width || middle > length - 0.55 * width) continue;
+      const Vector2d centre = pointAt(points, middle);
+      const bool isFree =
+          std::none_of(piece_.notches.begin(), piece_.notches.end(), [&](const Notch& notch) {
+            return (placement_.apply(notch.onSewLine) - centre).norm() < 0.5 * width + 4;
+          });
+      if (isFree) return middle;
+    }
+    return 0.5 * length;
   }
 
   [[nodiscard]] bool sewCorner(const OutlineRun& run) const {
@@ -360,6 +421,13 @@ const char* layerName(SheetRole role) {
       return "text";
   }
   return "";
+}
+
+std::string seamLetters(int seam) {
+  std::string letters;
+  for (int n = seam; n > 0; n = (n - 1) / 26)
+    letters.insert(letters.begin(), static_cast<char>('A' + (n - 1) % 26));
+  return letters;
 }
 
 double estimatedWidth(const std::string& utf8, double size) {

