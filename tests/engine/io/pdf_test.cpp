@@ -189,7 +189,8 @@ TEST(Pdf, WholeSheetIsOnePage) {
   const Pattern pattern = test::makeTwoPiecePattern();
   const SavedPdf pdf(pattern, {.tiled = false});
   const Raster page(pdf, 1);
-  const Points2& cut = drawSheet(pattern).pieces[0].lines[0].points;
+  const SheetDrawing sheet = drawSheet(pattern);
+  const Points2& cut = sheet.pieces[0].lines[0].points;
   for (const Eigen::Vector2d& p : cut) EXPECT_LT(page.darkest(p.x() + 15, p.y() + 15 + 118), 100);
   EXPECT_NEAR(page.height / kDotsPerMm, pattern.layout.max.y() + 30 + 118, 0.2);
 }
