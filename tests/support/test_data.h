@@ -18,11 +18,11 @@ bool isTestDataRequired();
 
 }  // namespace toile::test
 
-/// Declares `path` as the file of that name, or skips the test, saying so.
-#define TOILE_TEST_DATA_OR_SKIP(path, relative)                                                \
-  const auto path##Found = ::toile::test::findTestData(relative);                              \
-  if (!path##Found) {                                                                          \
+/// Declares `name` as the file of that name, or skips the test, saying so.
+#define TOILE_TEST_DATA_OR_SKIP(name, relative)                                                \
+  const auto name##Found = ::toile::test::findTestData(relative);                              \
+  if (!name##Found) {                                                                          \
     if (::toile::test::isTestDataRequired()) FAIL() << "test data is missing: " << (relative); \
     GTEST_SKIP() << "no test data " << (relative) << "; set TOILE_TEST_DATA to its folder";    \
   }                                                                                            \
-  const std::filesystem::path path = *path##Found
+  const std::filesystem::path name = *name##Found
