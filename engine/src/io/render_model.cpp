@@ -25,6 +25,7 @@ constexpr std::size_t kMostRaysPerVertex = 192;    // over the sphere; half of t
 constexpr std::size_t kLeastRaysPerVertex = 24;
 constexpr double kOcclusionReach = 0.25;  // of the model's diagonal: nearer surface darkens
 constexpr double kEyeDistance = 5;        // in diagonals: nearly parallel, yet round
+constexpr int kMostTubes = 12;            // along one ray
 constexpr double kCasing = 1;             // px of white beside a line, each side
 constexpr double kCasingOpacity = 0.55;
 constexpr double kContrastStep = 18.0 / 255;  // difference of samples that asks for more of them
@@ -387,15 +388,24 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
     const FirstHit hit = scene.surface.firstHit(eye, ray, 0, far);
     Sample sample{hit.exists() ? scene.shade(hit, camera, direction) : ground,
                   hit.exists() ? 1 + scene.colourOfFace[hit.primitive] : 0U};
-    const FirstHit tube = context.tubes.firstHit(eye, ray, 0, std::min(hit.t, far));
-    if (!tube.exists()) return sample;
-    const Stretch& stretch = context.stretches[tube.primitive];
-    const LineStyle& style = scene.lines[stretch.line].style;
-    const Vector2d pass = passOf(context, stretch, direction);
-    if (pass.y() <= style.width / 2 && isInked(style, pass.x(), pass.y())) {
-      return {displayOf(style.colour), 0x10000};
+    // Where a line runs towards the eye the casing of one stretch hides the ink of the next: look
+    // on until there is ink or the surface.
+    const float end = std::min(hit.t, far);
+    bool cased = false;
+    float near = 0;
+    for (int pass = 0; pass < kMostTubes; ++pass) {
+      const FirstHit tube = context.tubes.firstHit(eye, ray, near, end);
+      if (!tube.exists()) break;
+      const Stretch& stretch = context.stretches[tube.primitive];
+      const LineStyle& style = scene.lines[stretch.line].style;
+      const Vector2d place = passOf(context, stretch, direction);
+      if (place.y() <= style.width / 2 && isInked(style, place.x(), place.y())) {
+        return {displayOf(style.colour), 0x10000};
+      }
+      cased = true;
+      near = tube.t + static_cast<float>(0.25 * context.unit);
     }
-    if (hit.exists()) {  // the casing helps the line on the body, not beside it
+    if (cased && hit.exists()) {  // the casing helps the line on the body, not beside it
       sample.colour += kCasingOpacity * (Vector3d::Ones() - sample.colour);
       sample.seen = 0x20000;
     }

@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -182,6 +183,20 @@ class TextLine {
     pango_layout_get_pixel_size(layout_.get(), &width, nullptr);
     return width;
   }
+  /// With a pale rim, so that lines beneath do not disturb reading.
+  void drawWithHalo(cairo_t* cairo, double x, double y, double rim) const {
+    cairo_new_path(cairo);
+    cairo_move_to(cairo, x,
+                  y - static_cast<double>(pango_layout_get_baseline(layout_.get())) / PANGO_SCALE);
+    pango_cairo_layout_path(cairo, layout_.get());
+    cairo_set_dash(cairo, nullptr, 0, 0);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cairo, 2 * rim);
+    cairo_set_source_rgba(cairo, 1, 1, 1, 0.6);
+    cairo_stroke_preserve(cairo);
+    setColour(cairo, kText);
+    cairo_fill(cairo);
+  }
   void draw(cairo_t* cairo, double x, double y) const {
     cairo_move_to(cairo, x,
                   y - static_cast<double>(pango_layout_get_baseline(layout_.get())) / PANGO_SCALE);
@@ -192,26 +207,46 @@ class TextLine {
   std::unique_ptr<PangoLayout, CairoEnd> layout_;
 };
 
+/// The stretch of the horizontal line through a point that lies inside the outlines around it, px.
+std::array<double, 2> roomAround(const std::vector<std::vector<Vector2d>>& loops,
+                                 const Vector2d& point) {
+  std::array<double, 2> room = {-1e300, 1e300};
+  for (const std::vector<Vector2d>& loop : loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Vector2d& a = loop[i];
+      const Vector2d& b = loop[(i + 1) % loop.size()];
+      if ((a.y() > point.y()) == (b.y() > point.y())) continue;
+      const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
+      if (x <= point.x()) room[0] = std::max(room[0], x);
+      if (x > point.x()) room[1] = std::min(room[1], x);
+    }
+  }
+  return room;
+}
+
 void SheetPainter::paintLabel(const PatternPiece& piece) {
   if (piece.name.empty() || piece.sewLines.empty()) return;
-  double low = 1e300;
-  double high = -1e300;
-  for (const OutlinePoint& point : piece.sewLines.front()) {
-    low = std::min(low, at(point.position).x());
-    high = std::max(high, at(point.position).x());
+  std::vector<std::vector<Vector2d>> loops;
+  for (const Outline& outline : piece.sewLines) {
+    loops.emplace_back();
+    for (const OutlinePoint& point : outline) loops.back().push_back(at(point.position));
   }
-  const double room = 0.8 * (high - low);
+  Vector2d middle = at(piece.labelPosition);
+  const auto [left, right] = roomAround(loops, middle);
+  if (left < -1e299 || right > 1e299) return;
   double size = kLabelSize * frame_.scale;
   double width = TextLine(cairo_, piece.name, size, false).width();
+  const double room = 0.86 * (right - left);
   if (width > room) {
-    size *= room / width;
-    if (size < kLeastLabelSize * frame_.scale) return;
+    size = std::max(size * room / width, kLeastLabelSize * frame_.scale);
     width = TextLine(cairo_, piece.name, size, false).width();
   }
-  const Vector2d middle = at(piece.labelPosition);
-  setColour(cairo_, kText);
-  TextLine(cairo_, piece.name, size, false)
-      .draw(cairo_, middle.x() - width / 2, middle.y() + size / 3);
+  const double slack = std::max(0.0, (right - left - width) / 2);
+  middle.x() =
+      std::clamp(middle.x(), left + width / 2 + 0.2 * slack,
+                 std::max(right - width / 2 - 0.2 * slack, left + width / 2 + 0.2 * slack));
+  const TextLine text(cairo_, piece.name, size, false);
+  text.drawWithHalo(cairo_, middle.x() - width / 2, middle.y() + size / 3, 2.5 * frame_.scale);
 }
 
 /// The largest of 10, 20, 50, 100, ... mm that takes at most that many.

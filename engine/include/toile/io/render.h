@@ -8,8 +8,8 @@
 namespace toile {
 
 struct RenderOptions {
-  int width = 2000;   ///< px, 16..16000
-  int height = 1200;  ///< px, 16..16000
+  int width = 1600;   ///< px, 16..16000
+  int height = 1000;  ///< px, 16..16000
   int samples = 2;    ///< per pixel and axis
 };
 

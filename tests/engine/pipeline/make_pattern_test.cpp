@@ -1,0 +1,178 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <string>
+
+#include "support/sample_designs.h"
+#include "toile/core/parallel.h"
+#include "toile/io/report.h"
+#include "toile/pipeline.h"
+
+namespace toile::test {
+namespace {
+
+StylingCurve ringSeam(const std::string& id, double height) {
+  StylingCurve curve;
+  curve.id = id;
+  curve.closed = true;
+  AlongSection way;
+  way.plane.normal = {0, 0, 1};
+  way.plane.through = Length::mm(height);
+  curve.way = way;
+  return curve;
+}
+
+/// The sleeve parted by two level seams: six pieces in three tiers.
+Document tieredSleeve(double upperSeam, double lowerSeam) {
+  const Document sleeve = sleeveDocument();
+  Design design = *sleeve.design;
+  std::erase_if(design.curves, [](const StylingCurve& c) { return c.id == "elbow-line"; });
+  design.curves.push_back(ringSeam("upper-ring", upperSeam));
+  design.curves.push_back(ringSeam("lower-ring", lowerSeam));
+  return withDesign(sleeve, design);
+}
+
+std::string everything(const Pattern& pattern) {
+  std::string all = writeReportJson(pattern);
+  for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
+    if (pattern.flats[i]) all += writePieceObj(pattern.cut.pieces[i], *pattern.flats[i]);
+  }
+  return all;
+}
+
+TEST(MakePattern, MakesBothPiecesOfTheSleeveWithExactLengths) {
+  const Result<Pattern> pattern = makePattern(sleeveDocument());
+  ASSERT_TRUE(pattern) << pattern.error();
+  EXPECT_TRUE(pattern->isComplete());
+  ASSERT_EQ(pattern->pieces.size(), 2U);
+  EXPECT_EQ(pattern->layout.placements.size(), 2U);
+  double area = 0;
+  for (std::size_t i = 0; i < pattern->cut.pieces.size(); ++i) {
+    const Piece& piece = pattern->cut.pieces[i];
+    for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) area += piece.mesh->area(FaceId(f));
+    for (const Wire& wire : piece.wires) {
+      for (std::size_t e = 0; e < wire.targetLength.size(); ++e) {
+        const double flat = (pattern->flats[i]->position[wire.vertices[e + 1]] -
+                             pattern->flats[i]->position[wire.vertices[e]])
+                                .norm();
+        const double target = wire.targetLength[e];
+        EXPECT_LE(std::abs(flat - target), 1e-9 * std::max(target, 1.0)) << wireGroup(wire);
+      }
+    }
+  }
+  EXPECT_NEAR(area / pattern->cut.includedArea, 1, 1e-12);
+}
+
+TEST(MakePattern, MatesHaveBitwiseEqualTargets) {
+  const Result<Pattern> pattern = makePattern(sleeveDocument());
+  ASSERT_TRUE(pattern) << pattern.error();
+  ASSERT_FALSE(pattern->cut.mates.empty());
+  for (const SeamMates& mates : pattern->cut.mates) {
+    std::vector<double> a = pattern->cut.pieces[mates.pieceA].wires[mates.wireA].targetLength;
+    const std::vector<double>& b =
+        pattern->cut.pieces[mates.pieceB].wires[mates.wireB].targetLength;
+    std::reverse(a.begin(), a.end());
+    EXPECT_EQ(a, b);
+  }
+}
+
+TEST(MakePattern, SolvesOnlyPiecesThatAnEditTouched) {
+  PatternCache cache;
+  const Result<Pattern> before = makePattern(tieredSleeve(500, 150), {}, &cache);
+  ASSERT_TRUE(before) << before.error();
+  ASSERT_EQ(before->pieces.size(), 6U);
+  EXPECT_EQ(cache.solved, 6U);
+  EXPECT_EQ(cache.reused, 0U);
+
+  // The lower seam bounds the middle and the lower tier; the two upper pieces do not change.
+  const Document edited = tieredSleeve(500, 160);
+  const Result<Pattern> warm = makePattern(edited, {}, &cache);
+  ASSERT_TRUE(warm) << warm.error();
+  EXPECT_EQ(cache.solved, 10U);
+  EXPECT_EQ(cache.reused, 2U);
+
+  // Answers have no history: the same bytes as without a cache.
+  const Result<Pattern> cold = makePattern(edited);
+  ASSERT_TRUE(cold) << cold.error();
+  EXPECT_EQ(everything(*warm), everything(*cold));
+
+  const Result<Pattern> again = makePattern(edited, {}, &cache);
+  ASSERT_TRUE(again) << again.error();
+  EXPECT_EQ(cache.solved, 10U);
+  EXPECT_EQ(cache.reused, 8U);
+}
+
+TEST(MakePattern, SolvesAgainWithOtherOptions) {
+  PatternCache cache;
+  ASSERT_TRUE(makePattern(sleeveDocument(), {}, &cache));
+  MakeOptions options;
+  options.unfold.areaWeight = 0;
+  ASSERT_TRUE(makePattern(sleeveDocument(), options, &cache));
+  EXPECT_EQ(cache.solved, 4U);
+  EXPECT_EQ(cache.reused, 0U);
+}
+
+TEST(MakePattern, IsTheSameForAnyNumberOfThreads) {
+  const Document document = tieredSleeve(500, 150);
+  std::set<std::string> answers;
+  for (const std::size_t threads : {1U, 2U, 4U}) {
+    const ThreadLimit limit(threads);
+    const Result<Pattern> pattern = makePattern(document);
+    ASSERT_TRUE(pattern) << pattern.error();
+    answers.insert(everything(*pattern));
+  }
+  EXPECT_EQ(answers.size(), 1U);
+}
+
+Document tube() {
+  const Document sleeve = sleeveDocument();
+  Design design = *sleeve.design;
+  design.curves.clear();
+  design.pieces.clear();
+  return withDesign(sleeve, design);
+}
+
+TEST(MakePattern, NamesATubeAndMakesTheRest) {
+  const Result<Pattern> pattern = makePattern(tube());
+  ASSERT_TRUE(pattern) << pattern.error();
+  EXPECT_FALSE(pattern->isComplete());
+  ASSERT_EQ(pattern->failures.size(), 1U);
+  ASSERT_TRUE(pattern->failures[0]);
+  EXPECT_EQ(pattern->failures[0]->code, ErrorCode::NotADisk);
+  EXPECT_THAT(pattern->failures[0]->message, testing::HasSubstr(pattern->cut.pieces[0].name));
+  EXPECT_TRUE(pattern->pieces.empty());
+  EXPECT_THAT(pattern->findings,
+              testing::Contains(testing::Field(&Finding::code, "tube-without-cut")));
+}
+
+TEST(MakePattern, CutsATubeOpenWhenAsked) {
+  MakeOptions options;
+  options.autoCut = true;
+  const Result<Pattern> pattern = makePattern(tube(), options);
+  ASSERT_TRUE(pattern) << pattern.error();
+  EXPECT_TRUE(pattern->isComplete());
+  EXPECT_EQ(pattern->pieces.size(), 1U);
+  EXPECT_EQ(pattern->document.design->curves.size(), 1U);
+  EXPECT_THAT(pattern->findings, testing::Contains(testing::Field(&Finding::code, "auto-cut")));
+  EXPECT_THAT(pattern->findings,
+              testing::Not(testing::Contains(testing::Field(&Finding::code, "tube-without-cut"))));
+}
+
+TEST(MakePattern, StopsWhenCancelled) {
+  class Stop : public Progress {
+   public:
+    void step(std::string_view) override {}
+    [[nodiscard]] bool isCancelled() const override { return true; }
+  };
+  Stop stop;
+  const Result<Pattern> pattern = makePattern(sleeveDocument(), {}, nullptr, &stop);
+  ASSERT_FALSE(pattern);
+  EXPECT_EQ(pattern.error().code, ErrorCode::Cancelled);
+}
+
+}  // namespace
+}  // namespace toile::test
