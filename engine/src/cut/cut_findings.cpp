@@ -89,6 +89,7 @@ std::vector<Finding> findNoteworthy(const Document& document, std::span<const Pl
       if (openedAt[v] != 1) continue;
       const std::string& curve = curves[cutEdge.curve].id;
       const Piece& piece = builds[pieceOf[mesh.face(mesh.halfedge(e))]].piece;
+      if (!piece.include) continue;  // a cut may run out where nothing is made
       findings.push_back(
           {"open-cut-end",
            fmt::format("{} \"{}\" ends inside piece \"{}\" and only slits it; lead it to another "
