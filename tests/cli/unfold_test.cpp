@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include "support/run_program.h"
+
+namespace toile::test {
+namespace {
+
+using testing::HasSubstr;
+
+/// A tent of 2 x 2 cells with a line over the ridge.
+constexpr const char* kTent =
+    "v 0 0 0\nv 10 0 4\nv 20 0 0\nv 0 10 0\nv 10 10 4\nv 20 10 0\nv 0 20 0\nv 10 20 4\nv 20 20 0\n"
+    "f 1 2 5\nf 1 5 4\nf 2 3 6\nf 2 6 5\nf 4 5 8\nf 4 8 7\nf 5 6 9\nf 5 9 8\n"
+    "g wire_feature_ridge\nl 2 5 8\n";
+
+class UnfoldCommand : public testing::Test {
+ protected:
+  void SetUp() override { writeText(in_, kTent); }
+  [[nodiscard]] ProgramResult run(const std::vector<std::string>& more) const {
+    std::vector<std::string> words{TOILE_EXECUTABLE, "unfold", in_.string(), "-o", out_.string()};
+    words.insert(words.end(), more.begin(), more.end());
+    return runProgram(words);
+  }
+  TemporaryFolder folder_;
+  std::filesystem::path in_ = folder_.path() / "tent.obj";
+  std::filesystem::path out_ = folder_.path() / "flat.obj";
+};
+
+TEST_F(UnfoldCommand, WritesThePatchWithItsPlane) {
+  const ProgramResult result = run({"--units", "mm"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("8 faces, area error 0.00 %"));
+  const std::string text = readText(out_);
+  EXPECT_THAT(text, HasSubstr("# toile-units: mm\nv 0 0 0\n"));
+  EXPECT_THAT(text, HasSubstr("f 1/1 2/2 5/5\n"));
+  EXPECT_THAT(text, HasSubstr("g wire_feature_ridge\nl 2 5 8\n"));
+}
+
+TEST_F(UnfoldCommand, TellsProgramsTheCheck) {
+  const ProgramResult result = run({"--units", "mm", "--json", "--area-weight", "0"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  const nlohmann::json json = nlohmann::json::parse(result.out);
+  EXPECT_EQ(json["faces"], 8);
+  EXPECT_EQ(json["check"]["passes"], true);
+  EXPECT_LE(json["check"]["maxLengthError"].get<double>(), 1e-12);
+}
+
+TEST_F(UnfoldCommand, RefusesWithOneSentenceAndWritesNothing) {
+  struct Case {
+    std::vector<std::string> words;
+    int status;
+    std::string sentence;
+  };
+  for (const Case& each : std::initializer_list<Case>{
+           {{}, 1, "--units"},
+           {{"--units", "mm", "--objective", "wirewarping"}, 1, "not part of this version"},
+           {{"--units", "mm", "--objective", "other"}, 2, "other"},
+           {{"--units", "mm", "--area-weight", "-1"}, 2, "--area-weight"}}) {
+    const ProgramResult result = run(each.words);
+    EXPECT_EQ(result.status, each.status) << result.err;
+    EXPECT_THAT(result.err, HasSubstr(each.sentence));
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(std::filesystem::exists(out_));
+  }
+  writeText(in_, std::string(kTent) + "l 1 9\n");
+  const ProgramResult stray = run({"--units", "mm"});
+  EXPECT_EQ(stray.status, 1);
+  EXPECT_THAT(stray.err, HasSubstr("no edge of the mesh joins"));
+  EXPECT_FALSE(std::filesystem::exists(out_));
+}
+
+}  // namespace
+}  // namespace toile::test
