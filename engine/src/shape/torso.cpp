@@ -175,17 +175,23 @@ class NameFinder {
     names_.curves[name] = std::move(path);
   }
 
-  void addPeaks() {
-    VertexId bust(0), buttock(0);
+  /// The vertex of the left half within some heights that goes farthest in a direction.
+  [[nodiscard]] VertexId peak(const Vector3d& direction, double lowest, double highest) const {
+    VertexId best;
     for (std::size_t v = 0; v < mesh_.vertexCount(); ++v) {
       const Vector3d& here = mesh_.position(VertexId(v));
-      if (here.x() < 20) continue;
-      if (here.y() < mesh_.position(bust).y() || bust == VertexId(0)) bust = VertexId(v);
-      const bool isBehind = here.y() > mesh_.position(buttock).y() || buttock == VertexId(0);
-      if (isBehind && here.z() < kWaist) buttock = VertexId(v);
+      if (here.x() < 20 || here.z() < lowest || here.z() > highest) continue;
+      const bool isFarther =
+          !best.isValid() || here.dot(direction) > mesh_.position(best).dot(direction);
+      if (isFarther) best = VertexId(v);
     }
-    addPair("bust_point", SurfacePoint{bust});
-    addPair("buttock", SurfacePoint{buttock});
+    return best;
+  }
+  void addPeaks() {
+    addPair("bust_point", SurfacePoint{peak(-Vector3d::UnitY(), kUnderbust, kNeck)});
+    addPair("buttock", SurfacePoint{peak(Vector3d::UnitY(), 0, kWaist)});
+    addPair("arm_tip", SurfacePoint{peak(Vector3d::UnitX(), kBust, kNeck)});
+    names_.landmarks["crown"] = {torso_.frontColumn.front()};
   }
 
   const TorsoMesh& torso_;

@@ -237,10 +237,11 @@ TEST(Torso, HasTheNamesOfTheBodies) {
     EXPECT_TRUE(model.curves.contains(name)) << name;
   }
   for (const char* name :
-       {"neck_front", "neck_back", "neck_side_l", "shoulder_l", "armpit_l", "armpit_front_l",
-        "armpit_back_l", "bust_point_l", "bust_front", "bust_back", "underbust_front",
-        "waist_front", "waist_back", "waist_side_l", "hip_front", "hip_back", "hip_side_l",
-        "buttock_l", "crotch"}) {
+       {"neck_front",      "neck_back",     "neck_side_l",  "shoulder_l",   "armpit_l",
+        "armpit_front_l",  "armpit_back_l", "bust_point_l", "bust_front",   "bust_back",
+        "underbust_front", "waist_front",   "waist_back",   "waist_side_l", "hip_front",
+        "hip_back",        "hip_side_l",    "buttock_l",    "crotch",       "crown",
+        "arm_tip_l"}) {
     EXPECT_TRUE(model.landmarks.contains(name)) << name;
   }
   // Where curves meet they share a point, so that designs along them fit together.
