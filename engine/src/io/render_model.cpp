@@ -21,7 +21,7 @@ using Eigen::Vector3f;
 
 constexpr int kTile = 32;                          // px, one task
 constexpr std::size_t kOcclusionRays = 2'000'000;  // for the whole model
-constexpr std::size_t kMostRaysPerVertex = 192;    // over the sphere; half of them count
+constexpr std::size_t kMostRaysPerVertex = 128;    // over the sphere; half of them count
 constexpr std::size_t kLeastRaysPerVertex = 24;
 constexpr double kOcclusionReach = 0.25;  // of the model's diagonal: nearer surface darkens
 constexpr double kEyeDistance = 5;        // in diagonals: nearly parallel, yet round
@@ -34,9 +34,24 @@ constexpr double kContrastStep = 18.0 / 255;  // difference of samples that asks
 double toLinear(double s) {
   return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
 }
+/// By table: it is asked for every sample, and pictures have eight bits.
 double toDisplay(double x) {
-  const double c = std::clamp(x, 0.0, 1.0);
-  return c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+  constexpr std::size_t kSteps = 4096;
+  static const std::vector<double> table = [] {
+    std::vector<double> values(kSteps + 1);
+    for (std::size_t i = 0; i <= kSteps; ++i) {
+      const double c = static_cast<double>(i) / kSteps;
+      values[i] = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
+    }
+    return values;
+  }();
+  return table[static_cast<std::size_t>(std::clamp(x, 0.0, 1.0) * kSteps + 0.5)];
+}
+/// The 32nd power, 0 for what faces away.
+double sharpened(double cosine) {
+  double x = std::max(0.0, cosine);
+  for (int i = 0; i < 5; ++i) x *= x;
+  return x;
 }
 Vector3d displayOf(Colour c) {
   return Vector3d(c.r, c.g, c.b) / 255.0;
@@ -165,8 +180,9 @@ struct ModelRenderer::Scene {
 /// What one call of draw() needs in every sample.
 struct DrawContext {
   Camera camera;
-  Vector2d centre;  ///< of the model in the view plane, mm
-  double unit = 1;  ///< mm per px of the line styles
+  Vector2d centre;     ///< of the model in the view plane, mm
+  Vector2d low, high;  ///< beyond these there is nothing to see, mm
+  double unit = 1;     ///< mm per px of the line styles
   std::vector<Stretch> stretches;
   RayScene tubes;
 };
@@ -305,7 +321,7 @@ Vector3d ModelRenderer::Scene::shade(const FirstHit& hit, const Camera& camera,
   const double light = 0.46 * sky + 0.68 * lit * (0.30 + 0.70 * open) +
                        0.12 * std::max(0.0, normal.dot(fill)) * open;
   const Vector3d half = (key - direction).normalized();
-  const double gloss = 0.035 * open * std::pow(std::max(0.0, normal.dot(half)), 28.0);
+  const double gloss = 0.035 * open * sharpened(normal.dot(half));
   return (light * colours[colourOfFace[hit.primitive]] + Vector3d::Constant(gloss))
       .unaryExpr(&toDisplay);
 }
@@ -317,6 +333,10 @@ DrawContext makeContext(const std::vector<Line>& lines, const Camera& camera,
   DrawContext context;
   context.camera = camera;
   context.unit = unit;
+  // Lines stand out beyond the surface by half their width.
+  const Vector2d rim = Vector2d::Constant(10 * unit);
+  context.low = extent[0] - rim;
+  context.high = extent[1] + rim;
   context.centre = 0.5 * (extent[0] + extent[1]);
 
   std::vector<Tube> tubes;
@@ -381,6 +401,9 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
   const auto sampleAt = [&](double x, double y, const Vector3d& ground) -> Sample {
     const double right = (x - box.width / 2.0) * frame.mmPerPixel + context.centre.x();
     const double up = (box.height / 2.0 - y) * frame.mmPerPixel + context.centre.y();
+    const bool beside = right < context.low.x() || right > context.high.x() ||
+                        up < context.low.y() || up > context.high.y();
+    if (beside) return {ground, 0};
     const Vector3d direction =
         (camera.distance * camera.forward + right * camera.right + up * camera.up).normalized();
     const Vector3f ray = direction.cast<float>();
@@ -421,7 +444,7 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
 
   // One sample a pixel; many only where it differs from a neighbour: outlines and lines.
   const auto fineAt = [&](int x, int y) -> Vector3d {
-    const int n = 2 * frame.samples;
+    const int n = frame.samples + 1;
     const Vector3d ground = groundAt(x, y);
     Vector3d sum = Vector3d::Zero();
     for (int i = 0; i < n * n; ++i) {

@@ -33,7 +33,7 @@ class ModelRenderer {
     PixelBox box;     ///< filled whole, the model in its middle
     PixelBox ground;  ///< over which the ground shades, so that views side by side share it
     double mmPerPixel = 1;
-    int samples = 2;       ///< twice as many per pixel and axis where outlines and lines pass
+    int samples = 2;  ///< one more per pixel and axis where outlines and lines pass, 1 elsewhere
     double lineScale = 1;  ///< px of the picture per px of the line styles
   };
   void draw(Picture& picture, const Frame& frame, const ModelView& view) const;

@@ -25,7 +25,7 @@ p{max-width:44rem;margin:.4rem 0}
 .second{color:#55585e}
 .state{display:inline-block;margin:.9rem 0 .2rem;padding:.25rem .7rem;border-radius:6px;border:1px solid;font-weight:600}
 .order{color:#1f7a3d}.trouble{color:#a8320b}
-dl{display:flex;flex-wrap:wrap;gap:.4rem 2.4rem;margin:1rem 0}
+dl{display:flex;flex-wrap:wrap;margin:1rem 0}dl div{margin:.2rem 2.4rem .2rem 0}
 dt{color:#55585e;font-size:.85rem}dd{margin:0;font-size:1.15rem;font-variant-numeric:tabular-nums}
 .pieces{display:grid;grid-template-columns:repeat(auto-fill,minmax(13rem,1fr));gap:1rem}
 figure{margin:0;padding:.8rem;background:#fff;border:1px solid #dad7d1;border-radius:9px;break-inside:avoid;display:flex;flex-direction:column}
@@ -40,7 +40,7 @@ tr{break-inside:avoid}thead{display:table-header-group}
 li{margin:.25rem 0;max-width:50rem}
 code{font:.85em "DejaVu Sans Mono",monospace;color:#55585e}
 .legend{width:20rem;max-width:100%;display:block;margin:.4rem 0 1rem}
-.legend text{font-size:11px;fill:#55585e}
+sup{font-size:.72em;line-height:0}
 @media print{:root{background:#fff;font-size:10.5pt}body{margin:0;max-width:none;padding:0}.pieces{grid-template-columns:repeat(3,1fr)}}
 @page{margin:15mm}
 )";

@@ -142,9 +142,9 @@ std::string strainLegendSvg(double scale) {
   }
   const int percent = static_cast<int>(std::lround(100 * scale));
   svg += fmt::format(
-      "<text x=\"0\" y=\"28\">\u2212{0}\u202f% too much cloth</text>"
-      "<text x=\"160\" y=\"28\" text-anchor=\"middle\">0</text>"
-      "<text x=\"320\" y=\"28\" text-anchor=\"end\">must stretch +{0}\u202f%</text></svg>",
+      "<g font-size=\"11\" fill=\"#55585e\"><text x=\"0\" y=\"28\">\u2212{0}\u202f% too much cloth"
+      "</text><text x=\"160\" y=\"28\" text-anchor=\"middle\">0</text>"
+      "<text x=\"320\" y=\"28\" text-anchor=\"end\">must stretch +{0}\u202f%</text></g></svg>",
       percent);
   return svg;
 }
