@@ -137,7 +137,16 @@ std::vector<InternalLine> internalLines(const Document& document,
     line.closed = wire.vertices.front() == wire.vertices.back();
     for (const VertexId v : wire.vertices) line.points.push_back(flat.position[v]);
     if (line.closed) line.points.pop_back();
-    lines.push_back(std::move(line));
+    // The parts between crossings with other lines are one line to draw.
+    const bool goesOn = !lines.empty() && !line.closed && !lines.back().closed &&
+                        lines.back().curve == line.curve && lines.back().kind == line.kind &&
+                        lines.back().points.back() == line.points.front();
+    if (goesOn) {
+      Points2& points = lines.back().points;
+      points.insert(points.end(), line.points.begin() + 1, line.points.end());
+    } else {
+      lines.push_back(std::move(line));
+    }
   }
   const bool hasMarks = std::any_of(curves.begin(), curves.end(), [](const PlacedCurve& curve) {
     return curve.kind == CurveKind::Mark;

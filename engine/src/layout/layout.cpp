@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
 #include <tuple>
 
 #include "finish/polygon.h"
@@ -15,6 +16,8 @@
 
 namespace toile {
 namespace {
+
+using Eigen::Vector2d;
 
 enum class Side { Left, Right, Middle };
 
@@ -84,12 +87,145 @@ std::vector<Item> makeItems(std::vector<Placed>& placed, double axis) {
   return items;
 }
 
-/// Section 6.3 of the article's layout: from the lowest item on, each that overlaps what is fixed
+/// Mean height and mean distance from the axis of an item's pieces.
+struct ItemPlace {
+  double height = 0, fromAxis = 0;
+  double bottom = 0, top = 0;
+  bool canMoveOut = true;
+};
+
+ItemPlace placeOf(const Item& item, const std::vector<Placed>& placed, double axis) {
+  ItemPlace place;
+  place.bottom = std::numeric_limits<double>::infinity();
+  place.top = -place.bottom;
+  const double share = 1.0 / static_cast<double>(item.members.size());
+  for (const std::size_t m : item.members) {
+    const Box2 box = boxOf(placed[m].cut);
+    place.height += share * 0.5 * (box.min.y() + box.max.y());
+    place.fromAxis += share * std::abs(0.5 * (box.min.x() + box.max.x()) - axis);
+    place.bottom = std::min(place.bottom, box.min.y());
+    place.top = std::max(place.top, box.max.y());
+    place.canMoveOut = place.canMoveOut && placed[m].side != Side::Middle;
+  }
+  return place;
+}
+
+void moveItem(const Item& item, bool outward, double by, std::vector<Placed>& placed) {
+  for (const std::size_t m : item.members)
+    placed[m].shift(outward ? Vector2d(outwards(placed[m].side) * by, 0) : Vector2d(0, by));
+}
+
+/// Shifts of `moving` along its way that would overlap `fixed`.
+std::vector<ShiftRange> blockedShifts(const Item& moving, const Item& fixed, bool outward,
+                                      const std::vector<Placed>& placed) {
+  std::vector<ShiftRange> blocked;
+  for (const std::size_t m : moving.members) {
+    for (const std::size_t f : fixed.members) {
+      std::vector<ShiftRange> ranges;
+      addBlockedShifts(placed[m].grownBy, placed[f].grownBy, outward ? 0 : 1, ranges);
+      const bool toTheLeft = outward && placed[m].side == Side::Left;
+      for (const ShiftRange& range : ranges)
+        blocked.push_back(toTheLeft ? ShiftRange{-range.to, -range.from} : range);
+    }
+  }
+  return blocked;
+}
+
+/// By how much the halves of a mirrored pair must part so as not to overlap each other.
+double leastParting(const Item& item, const std::vector<Placed>& placed) {
+  if (item.members.size() != 2) return 0;
+  const bool firstIsLeft = placed[item.members[0]].side == Side::Left;
+  const Placed& left = placed[item.members[firstIsLeft ? 0 : 1]];
+  const Placed& right = placed[item.members[firstIsLeft ? 1 : 0]];
+  std::vector<ShiftRange> between;
+  addBlockedShifts(right.grownBy, left.grownBy, 0, between);
+  return 0.5 * leastFreeShift(std::move(between));
+}
+
+/// How a piece that overlaps another gets free of it.
+struct Move {
+  std::size_t item, against;
+  bool outward;
+  double by;
+};
+
+/// How far one item lies above the other on the body: 0 = side by side, 1 = one upon the other.
+double stacking(const ItemPlace& a, const ItemPlace& b) {
+  const double heights = 0.5 * ((a.top - a.bottom) + (b.top - b.bottom));
+  return std::abs(a.height - b.height) / std::max(heights, 1e-9);
+}
+
+/// The move that parts two items, or nothing if they do not overlap. Which one is the upper or
+/// outer, and which way suits them, is told by where they lie on the body.
+std::optional<Move> findMove(std::size_t i, std::size_t j, const std::vector<Item>& items,
+                             const std::vector<ItemPlace>& onBody,
+                             const std::vector<Placed>& placed) {
+  constexpr double kSuits = 4;       // how much farther a move may be that suits better
+  constexpr double kClearMm = 1e-3;  // so that rounding leaves no overlap
+  const auto [upper, lower] =
+      onBody[i].height >= onBody[j].height ? std::pair(i, j) : std::pair(j, i);
+  const double up = leastFreeShift(blockedShifts(items[upper], items[lower], false, placed));
+  if (up <= 0) return std::nullopt;
+  const auto [outer, inner] =
+      onBody[i].fromAxis >= onBody[j].fromAxis ? std::pair(i, j) : std::pair(j, i);
+  const Move upMove{upper, lower, false, up + kClearMm};
+  if (!onBody[outer].canMoveOut) return upMove;
+  const double out = leastFreeShift(blockedShifts(items[outer], items[inner], true, placed));
+  const double stacked = stacking(onBody[i], onBody[j]);
+  const double price = stacked < 0.3 ? 1 / kSuits : stacked > 0.55 ? kSuits : 1;
+  return price * out < up ? Move{outer, inner, true, out + kClearMm} : upMove;
+}
+
+/// Moves pieces up and outwards until none overlap, in the order that they have on the body; what
+/// lies beyond a moved piece moves with it, so that the arrangement stays.
+/// @return false if it did not come to an end
+bool spreadOut(std::vector<Placed>& placed, double axis) {
+  const std::vector<Item> items = makeItems(placed, axis);
+  std::vector<ItemPlace> onBody;
+  for (const Item& item : items) onBody.push_back(placeOf(item, placed, axis));
+  for (const Item& item : items)
+    if (const double by = leastParting(item, placed); by > 0) moveItem(item, true, by, placed);
+  const std::size_t mostSteps = 20 * items.size();
+  for (std::size_t step = 0; step < mostSteps; ++step) {
+    std::vector<ItemPlace> now;
+    for (const Item& item : items) now.push_back(placeOf(item, placed, axis));
+    // What is nearest to the ground, then to the axis, is settled first and stays settled.
+    const auto order = [&](const Move& move) {
+      return std::make_tuple(move.outward,
+                             move.outward ? onBody[move.item].fromAxis : onBody[move.item].bottom);
+    };
+    std::optional<Move> best;
+    for (std::size_t i = 0; i < items.size(); ++i) {
+      for (std::size_t j = 0; j < i; ++j) {
+        if (now[i].bottom - 2 * kLayoutGapMm > now[j].top ||
+            now[j].bottom - 2 * kLayoutGapMm > now[i].top)
+          continue;
+        const std::optional<Move> move = findMove(i, j, items, onBody, placed);
+        if (move && (!best || order(*move) < order(*best))) best = move;
+      }
+    }
+    if (!best) return true;
+    const ItemPlace& moved = now[best->item];
+    const ItemPlace& still = now[best->against];
+    for (std::size_t k = 0; k < items.size(); ++k) {
+      const bool isBeyond = best->outward
+                                ? onBody[k].canMoveOut &&
+                                      onBody[k].fromAxis >= onBody[best->item].fromAxis &&
+                                      now[k].top > moved.bottom && now[k].bottom < moved.top
+                                : now[k].height > still.height && now[k].bottom >= still.height;
+      if (k == best->item || (k != best->against && isBeyond))
+        moveItem(items[k], best->outward, best->by, placed);
+    }
+  }
+  return false;
+}
+
+/// The article's rule, which always ends: from the lowest item on, each that overlaps what is fixed
 /// moves up or outwards, whichever is shorter, and the items of its group that are still free move
 /// with it, so that their arrangement stays.
 void eliminateOverlaps(std::vector<Placed>& placed, double axis) {
   std::vector<Item> free = makeItems(placed, axis);
-  std::vector<std::size_t> fixed;
+  std::vector<Item> fixed;
   const auto order = [&](const Item& item) {
     double bottom = std::numeric_limits<double>::infinity();
     double fromAxis = bottom;
@@ -106,51 +242,27 @@ void eliminateOverlaps(std::vector<Placed>& placed, double axis) {
                          [&](const Item& a, const Item& b) { return order(a) < order(b); });
     const Item item = *lowest;
     free.erase(lowest);
-    const bool canMoveOut =
-        std::all_of(item.members.begin(), item.members.end(),
-                    [&](std::size_t m) { return placed[m].side != Side::Middle; });
-
+    const bool canMoveOut = placeOf(item, placed, axis).canMoveOut;
+    const double parting = leastParting(item, placed);
+    if (parting > 0) moveItem(item, true, parting, placed);
     std::vector<ShiftRange> up;
     std::vector<ShiftRange> out;
-    for (const std::size_t m : item.members) {
-      const Placed& moving = placed[m];
-      for (const std::size_t f : fixed) {
-        addBlockedShifts(moving.grownBy, placed[f].grownBy, 1, up);
-        if (!canMoveOut) continue;
-        std::vector<ShiftRange> toTheRight;
-        addBlockedShifts(moving.grownBy, placed[f].grownBy, 0, toTheRight);
-        for (const ShiftRange& range : toTheRight)
-          out.push_back(moving.side == Side::Left ? ShiftRange{-range.to, -range.from} : range);
-      }
-    }
-    bool isMutual = false;  // whether a pair's own halves overlap: up does not part them
-    if (item.members.size() == 2) {
-      const auto [left, right] = placed[item.members[0]].side == Side::Left
-                                     ? std::pair(item.members[0], item.members[1])
-                                     : std::pair(item.members[1], item.members[0]);
-      std::vector<ShiftRange> between;
-      addBlockedShifts(placed[right].grownBy, placed[left].grownBy, 0, between);
-      for (const ShiftRange& range : between) {
-        if (range.from < 0 && range.to > 0) isMutual = true;
-        out.push_back({0.5 * range.from, 0.5 * range.to});  // both halves move
-      }
+    for (const Item& other : fixed) {
+      for (const ShiftRange& range : blockedShifts(item, other, false, placed)) up.push_back(range);
+      if (!canMoveOut) continue;
+      for (const ShiftRange& range : blockedShifts(item, other, true, placed)) out.push_back(range);
     }
     const double upBy = leastFreeShift(up);
     const double outBy = canMoveOut ? leastFreeShift(out) : 0;
-    const bool moveOut = canMoveOut && (isMutual || outBy < upBy);
+    const bool moveOut = canMoveOut && outBy < upBy;
     const double by = moveOut ? outBy : upBy;
     const int group = groupOf(item, placed);
-    const auto move = [&](const Item& which) {
-      for (const std::size_t m : which.members)
-        placed[m].shift(moveOut ? Eigen::Vector2d(outwards(placed[m].side) * by, 0)
-                                : Eigen::Vector2d(0, by));
-    };
     if (by > 0) {
-      move(item);
+      moveItem(item, moveOut, by, placed);
       for (const Item& other : free)
-        if (groupOf(other, placed) == group) move(other);
+        if (groupOf(other, placed) == group) moveItem(other, moveOut, by, placed);
     }
-    fixed.insert(fixed.end(), item.members.begin(), item.members.end());
+    fixed.push_back(item);
   }
 }
 
@@ -201,6 +313,9 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
   }
   for (const Chart chart : {Chart::Front, Chart::Back}) {
     std::vector<Placed>& placed = charts[chart == Chart::Back ? 1 : 0];
+    const std::vector<Placed> onMap = placed;
+    if (spreadOut(placed, axisOf(model, chart))) continue;
+    placed = onMap;
     eliminateOverlaps(placed, axisOf(model, chart));
   }
   constexpr double kBetweenChartsMm = 4 * kLayoutGapMm;
