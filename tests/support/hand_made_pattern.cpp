@@ -106,9 +106,8 @@ Pattern makeTwoPiecePattern(double allowanceMm) {
     return u == 300 && v < 200 ? std::pair(WireKind::Seam, std::string("side"))
                                : std::pair(WireKind::Border, std::string("border"));
   };
-  const auto atWaist = [](double u, double v) {
-    return v == 100 && (u == 0 || u == 300 || u == 500);
-  };
+  // The waist line parts the border of the ell; elsewhere it ends within a boundary wire.
+  const auto atWaist = [](double u, double v) { return v == 100 && u == 0; };
   const HandMadePiece ell{
       "ell",
       [](double u, double v) { return u < 300 && (v < 200 || (u < 120 && v < 400)); },
@@ -161,7 +160,7 @@ Pattern makeTwoPiecePattern(double allowanceMm) {
     pattern.failures.emplace_back();
     pattern.pieceIndex.push_back(static_cast<std::uint32_t>(pattern.pieceIndex.size()));
   }
-  // The seam is a wire below and one above the waist; its sides run in opposite directions.
+  // The sides of the seam run in opposite directions.
   const auto& a = pattern.cut.pieces[0].wires;
   const auto& b = pattern.cut.pieces[1].wires;
   for (std::uint32_t i = 0; i < a.size(); ++i)

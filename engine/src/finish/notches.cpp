@@ -83,6 +83,7 @@ class NotchChooser {
 
   std::vector<SewNotch> choose() {
     chooseAtJunctions();
+    chooseAtFeatureEnds();
     chooseAlongSeams();
     return std::move(notches_);
   }
@@ -150,6 +151,36 @@ class NotchChooser {
     }
   }
 
+  /// Where feature and elastic lines reach the outline within a run.
+  void chooseAtFeatureEnds() {
+    std::vector<std::set<VertexId>> ends;
+    for (const PieceInWork& work : net_.pieces()) {
+      ends.emplace_back();
+      for (const Wire& wire : work.piece->wires) {
+        if (isBoundary(wire.kind) || wire.vertices.size() < 2) continue;
+        ends.back().insert(wire.vertices.front());
+        ends.back().insert(wire.vertices.back());
+      }
+    }
+    for (const RunId id : net_.runs()) {
+      const OutlineRun& run = net_.at(id);
+      const std::vector<VertexId>& vertices =
+          net_.pieces()[id.piece].piece->wires[run.wire].vertices;
+      for (std::size_t k = 1; k < run.edgeCount; ++k) {
+        if (!ends[id.piece].contains(vertices[k])) continue;
+        const double local = measure(id).along[run.first + k] - start(id);
+        const std::vector<SewPlace> places = bothSides({{id}, {run.length}}, local);
+        // The mate's own end of the line comes later and finds the place taken.
+        const bool fits = std::all_of(places.begin(), places.end(), [&](const SewPlace& place) {
+          return isFree(place) && measure(place.run).toCorner(place.along) >= kJunctionCornerMm;
+        });
+        if (!fits) continue;
+        const int number = places.size() > 1 ? ++lastNumber_ : 0;
+        for (const SewPlace& place : places) add(place, number);
+      }
+    }
+  }
+
   /// Height, then nearness to the front, then to the middle: the end that notches count from is
   /// the same one on the left and on the right of the body.
   [[nodiscard]] bool beginsAtItsUpperEnd(const std::vector<RunId>& chain) const {
@@ -200,9 +231,18 @@ class NotchChooser {
   /// Lengths along the chain at which notches stand already, the ends included.
   [[nodiscard]] std::vector<double> takenAlong(const Chain& chain) const {
     std::vector<double> taken{0};
-    for (std::size_t k = 0; k + 1 < chain.runs.size(); ++k)
-      if (!isFree({chain.runs[k + 1], start(chain.runs[k + 1])})) taken.push_back(chain.ends[k]);
+    for (std::size_t k = 0; k < chain.runs.size(); ++k) {
+      const RunId run = chain.runs[k];
+      const double before = k == 0 ? 0 : chain.ends[k - 1];
+      for (const auto& [loop, along] : used_[run.piece]) {
+        const double local = along - start(run);
+        if (loop == net_.at(run).loop && local >= 0 && local < net_.at(run).length &&
+            before + local > 0)
+          taken.push_back(before + local);
+      }
+    }
     taken.push_back(chain.length());
+    std::sort(taken.begin(), taken.end());
     return taken;
   }
 

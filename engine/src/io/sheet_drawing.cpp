@@ -192,8 +192,8 @@ class PieceArtist {
       const double depth = allowance > kNotchSizeMm ? 0.5 * allowance : 0.9 * kNotchSizeMm;
       const Vector2d aside(inward.y(), -inward.x());
       const std::string number = std::to_string(notch.number);
-      const double away =
-          0.8 + 0.5 * estimatedWidth(number, kNotchSizeMm) + (isDouble(notch) ? kDoubleNotchMm : 0);
+      const double half = 0.5 * std::max(estimatedWidth(number, kNotchSizeMm), kNotchSizeMm);
+      const double away = 1 + half + (isDouble(notch) ? kDoubleNotchMm : 0);
       const Vector2d middle = at + depth * inward + away * aside;
       out_.texts.push_back({SheetRole::Notch, middle - Vector2d(0, 0.36 * kNotchSizeMm), 0,
                             kNotchSizeMm, false, number});
