@@ -230,15 +230,16 @@ class NotchChooser {
 
   /// Lengths along the chain at which notches stand already, the ends included.
   [[nodiscard]] std::vector<double> takenAlong(const Chain& chain) const {
+    constexpr double kSamePlaceMm = 1e-3;  // a notch at the end of one run begins the next
     std::vector<double> taken{0};
     for (std::size_t k = 0; k < chain.runs.size(); ++k) {
       const RunId run = chain.runs[k];
       const double before = k == 0 ? 0 : chain.ends[k - 1];
       for (const auto& [loop, along] : used_[run.piece]) {
         const double local = along - start(run);
-        if (loop == net_.at(run).loop && local >= 0 && local < net_.at(run).length &&
-            before + local > 0)
-          taken.push_back(before + local);
+        const bool isHere = loop == net_.at(run).loop && local > -kSamePlaceMm &&
+                            local < net_.at(run).length - kSamePlaceMm;
+        if (isHere && before + local > kSamePlaceMm) taken.push_back(before + local);
       }
     }
     taken.push_back(chain.length());

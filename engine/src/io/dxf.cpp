@@ -38,7 +38,9 @@ enum Layer : int {
 constexpr std::size_t kMostNameChars = 20;  // AccuMark cuts names there
 constexpr std::size_t kMostSizeChars = 10;  // name, '_' and size fit the 31 of R12
 constexpr double kTextHeightMm = 4;
-constexpr double kLineFeedMm = 6;
+constexpr double kLeastTextMm = 1.5;
+constexpr double kLineFeed = 1.5;    // of the height
+constexpr double kLetterWide = 0.8;  // of the height, in the plain fonts of CAD programs
 constexpr double kEdgeTextHeightMm = 3.5;
 
 /// A vertex of a written line.
@@ -157,16 +159,30 @@ class Writer {
 
   void writePieceText(std::size_t i) {
     const PatternPiece& piece = pattern_.pieces[i];
-    const Placement& placement = pattern_.layout.placements[i];
     std::vector<std::string> lines{"Piece Name:" + pieceNames_[i], "Size:" + size_,
                                    fmt::format("Quantity:{},0", piece.count)};
     if (!piece.fabric.empty()) lines.push_back("Material:" + plainText(piece.fabric, "fabric"));
     lines.push_back("Annotation:" + style_);
     lines.emplace_back("Category:");
-    Eigen::Vector2d at = placement.apply(piece.labelPosition);
+    writeBesideLabel(i, kBoundary, lines, 0);
+  }
+
+  /// Lines of text in the middle of the piece, small enough to stay inside where that can be read;
+  /// `above` of them stand above its inmost point.
+  void writeBesideLabel(std::size_t i, int layer, const std::vector<std::string>& lines,
+                        std::size_t above) {
+    const PatternPiece& piece = pattern_.pieces[i];
+    std::size_t letters = 1;
+    for (const std::string& line : lines) letters = std::max(letters, line.size());
+    const double room = EdgeGrid(positions(piece.sewLines)).nearest(piece.labelPosition).distance;
+    const double widest = kLetterWide * static_cast<double>(letters);
+    const double height = std::clamp(2 * room / widest, kLeastTextMm, kTextHeightMm);
+    Eigen::Vector2d at =
+        pattern_.layout.placements[i].apply(piece.labelPosition) +
+        height * Eigen::Vector2d(-0.5 * widest, kLineFeed * static_cast<double>(above));
     for (const std::string& line : lines) {
-      out_.text(kBoundary, toDxf(at), kTextHeightMm, line);
-      at.y() -= kLineFeedMm;
+      out_.text(layer, toDxf(at), height, line);
+      at.y() -= kLineFeed * height;
     }
   }
 
@@ -175,12 +191,9 @@ class Writer {
   void writeAnnotation(std::size_t i) {
     const PatternPiece& piece = pattern_.pieces[i];
     const Placement& placement = pattern_.layout.placements[i];
-    Eigen::Vector2d at = placement.apply(piece.labelPosition);
-    at.y() += kLineFeedMm * static_cast<double>(piece.label.size());
-    for (const std::string& line : piece.label) {
-      out_.text(kAnnotation, toDxf(at), kTextHeightMm, plainText(line, "label"));
-      at.y() -= kLineFeedMm;
-    }
+    std::vector<std::string> lines;
+    for (const std::string& line : piece.label) lines.push_back(plainText(line, "label"));
+    writeBesideLabel(i, kAnnotation, lines, lines.size());
     for (const OutlineRun& run : piece.runs) {
       if (run.seam == 0) continue;
       const Outline& loop = piece.sewLines[run.loop];

@@ -245,6 +245,25 @@ class Writer {
     canvas_.textFromLeft({26, 6.5}, 3.6,
                          fmt::format("page {} of {}   {}", tile.page, pages, title()), false,
                          kTileWidthMm - 26);
+    canvas_.setShift(corner);
+    canvas_.textFromLeft({0, -9}, 3.6, piecesOn(tile), false, kTileWidthMm);
+  }
+
+  /// Names of the pieces that have a part on the tile.
+  [[nodiscard]] std::string piecesOn(const Tile& tile) const {
+    std::string names;
+    for (const PieceDrawing& piece : sheet_.pieces) {
+      const auto isHere = [&](const SheetLine& line) {
+        if (line.role != SheetRole::Cut) return false;
+        for (std::size_t k = 0; k < line.points.size(); ++k)
+          if (crosses(tile.box, line.points[k], line.points[(k + 1) % line.points.size()]))
+            return true;
+        return isInside({line.points}, 0.5 * (tile.box.min + tile.box.max));
+      };
+      if (!std::any_of(piece.lines.begin(), piece.lines.end(), isHere)) continue;
+      names += names.empty() ? piece.name : ", " + piece.name;
+    }
+    return names;
   }
 
   void writeTiles() {
