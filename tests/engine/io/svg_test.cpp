@@ -59,8 +59,8 @@ TEST(Svg, HasALayerForEachRoleAndTheIdsOfSeams) {
   for (const char* layer : {"ell cut line", "ell sew line", "ell inner lines", "ell notches",
                             "ell grain line", "ell text", "panel cut line"})
     EXPECT_EQ(count(svg, std::string("inkscape:label=\"") + layer + '"'), 1u) << layer;
-  EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"panel\""), 2u);
-  EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"ell\""), 2u);
+  EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"panel\""), 1u);
+  EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"ell\""), 1u);
   EXPECT_EQ(count(svg, "data-notch=\"1\""), 2u);
   EXPECT_EQ(count(svg, ">A  side to panel</text>"), 1u);
 }
