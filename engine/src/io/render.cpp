@@ -46,7 +46,7 @@ Arrangement divide(const RenderOptions& options, double scale, double modelAspec
   const double model =
       stacked ? side + modelAspect * height / 2 : 2 * (side + modelAspect * height);
   const double sheet = 2 * kSideRoom * scale + sheetAspect * options.height;
-  const double share = std::clamp(model / (model + sheet), 0.34, 0.62);
+  const double share = std::clamp(model / (model + sheet), 0.42, 0.62);
   const int groundWidth = std::max(2, static_cast<int>(std::lround(share * options.width)));
 
   Arrangement result;
