@@ -7,6 +7,7 @@
 
 #include "finish/polygon.h"
 #include "support/hand_made_pattern.h"
+#include "support/meshes.h"
 #include "support/result_printing.h"
 
 namespace toile {
@@ -230,6 +231,53 @@ TEST(Finish, MarksAreDrawnWhereTheyCrossThePiece) {
   EXPECT_LT((inEll.points.back() - Eigen::Vector2d(300, 45)).norm(), 1e-6);
   EXPECT_LT((inPanel.points.front() - Eigen::Vector2d(300, 45)).norm(), 1e-6);
   EXPECT_LT((inPanel.points.back() - Eigen::Vector2d(317, 45)).norm(), 1e-9);
+}
+
+// A square of 200 mm with a dart of 60 mm in the middle of its lower edge, 24 mm wide at the mouth.
+TEST(Finish, DartsAreNotchedAtTheirMouth) {
+  const Mesh square = test::grid(10, 10, 20);
+  PolygonSoup::Chain slit;
+  slit.group = "wire_dart_d";
+  for (const std::uint32_t row : {0u, 1u, 2u, 3u}) slit.vertices.push_back(row * 11 + 5);
+  const Result<Piece> made = makePiece("darted", square, {slit});
+  ASSERT_TRUE(made) << made.error();
+  CutResult cut;
+  cut.pieces.push_back(*made);
+  Piece& piece = cut.pieces.back();
+  piece.id = "darted";
+  FlatPiece flat;
+  flat.position = VertexData<Eigen::Vector2d>(piece.mesh->vertexCount(), Eigen::Vector2d::Zero());
+  for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) {
+    const Triangle& corners = piece.mesh->vertices(FaceId(f));
+    double middle = 0;
+    for (const VertexId v : corners) middle += piece.mesh->position(v).x() / 3;
+    for (const VertexId v : corners) {
+      const Eigen::Vector3d& p = piece.mesh->position(v);
+      const double open = std::max(0.0, 12 * (1 - p.y() / 60));
+      flat.position[v] = {p.x() + (middle > 100 ? open : -open), p.y()};
+    }
+  }
+  std::vector<std::uint32_t> legs;
+  for (std::uint32_t w = 0; w < piece.wires.size(); ++w)
+    if (piece.wires[w].kind == WireKind::Dart) legs.push_back(w);
+  ASSERT_EQ(legs.size(), 2u);
+  cut.mates.push_back({0, legs[0], 0, legs[1]});
+  Document document;
+  document.design = std::make_shared<const Design>();
+  const auto pieces = finish(document, {}, cut, {std::make_shared<const FlatPiece>(flat)});
+  ASSERT_TRUE(pieces) << pieces.error();
+  const PatternPiece& darted = pieces->front();
+  EXPECT_TRUE(darted.findings.empty());
+  // On the cut line below each end of the mouth, square to the hem, with one number.
+  ASSERT_EQ(darted.notches.size(), 2u);
+  for (const Notch& notch : darted.notches) {
+    EXPECT_EQ(notch.number, 1);
+    EXPECT_EQ(notch.seam, "border");
+    EXPECT_NEAR(std::abs(notch.onSewLine.x() - 100), 12, 1e-9);
+    EXPECT_NEAR(notch.position.x(), notch.onSewLine.x(), 1e-3);
+    EXPECT_NEAR(notch.position.y(), -10, 1e-3);
+    EXPECT_NEAR(notch.direction.y(), 1, 1e-9);
+  }
 }
 
 TEST(Finish, RefusesAPieceThatLiesWrongSideUp) {

@@ -98,6 +98,27 @@ TEST(Layout, KeepsTheBodysOrderLeftAndRightMirrored) {
   EXPECT_NEAR(layout.max.y(), 220, 1e-3);
 }
 
+// The lowest piece does not come first: the side panels reach below the front ones.
+TEST(Layout, KeepsInnerPiecesInside) {
+  Pieces pieces;
+  pieces.add([](double u, double v) { return u > 100 && u < 200 && v > 20 && v < 300; });
+  pieces.add([](double u, double v) { return u > 200 && u < 300 && v > 20 && v < 300; });
+  pieces.add([](double u, double v) { return u > 20 && u < 120 && v < 280; });
+  pieces.add([](double u, double v) { return u > 280 && u < 380 && v < 280; });
+  // A collar on top of the front pieces, over both.
+  pieces.add([](double u, double v) { return u > 120 && u < 280 && v > 280 && v < 340; });
+  const Layout layout = pieces.arranged();
+  expectNoOverlap(pieces, layout);
+  std::vector<Box2> boxes;
+  for (std::size_t i = 0; i < 5; ++i) boxes.push_back(boxOf(pieces.cutLine(layout, i)));
+  EXPECT_LT(boxes[2].max.x(), boxes[0].min.x());
+  EXPECT_LT(boxes[0].max.x(), boxes[1].min.x());
+  EXPECT_LT(boxes[1].max.x(), boxes[3].min.x());
+  EXPECT_GT(boxes[4].min.y(), boxes[0].max.y());
+  EXPECT_LT(boxes[1].min.x() - boxes[0].max.x(), 3 * kLayoutGapMm);
+  EXPECT_NEAR(boxes[0].min.x() - boxes[2].max.x(), boxes[3].min.x() - boxes[1].max.x(), 1e-6);
+}
+
 TEST(Layout, TurnsPiecesAsTheyLieOnTheBody) {
   Pieces pieces;
   pieces.add([](double u, double v) { return u < 200 && (v < 100 || u < 60); }, 0.7);
