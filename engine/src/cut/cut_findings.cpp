@@ -99,7 +99,7 @@ std::vector<Finding> findNoteworthy(const Document& document, std::span<const Pl
     }
   }
   for (std::size_t c = 0; c < curves.size(); ++c) {
-    if (hasEdges[c] || curves[c].kind == CurveKind::Mark) continue;
+    if (hasEdges[c] || !isWire(curves[c].kind)) continue;
     findings.push_back({"hidden-curve",
                         fmt::format("curve \"{}\" lies on others or on the border all the way, "
                                     "which take its place; remove it or move it",

@@ -39,6 +39,7 @@ std::uint8_t rankOf(CurveKind kind) {
       return 3;
     case CurveKind::Feature:
     case CurveKind::Mark:
+    case CurveKind::Guide:
       break;
   }
   return 4;
@@ -77,7 +78,7 @@ class Refiner {
   Result<void> placeSegments() {
     std::vector<Node> rounded;
     for (const PlacedCurve& curve : curves_) {
-      if (curve.kind == CurveKind::Mark) continue;
+      if (!isWire(curve.kind)) continue;
       if (!isValid(mesh_, curve.path)) {
         return Error{ErrorCode::CurveInvalid,
                      "curve \"" + curve.id + "\" does not lie on this model; draw it again",
@@ -95,7 +96,7 @@ class Refiner {
     std::size_t next = 0;
     for (std::size_t c = 0; c < curves_.size(); ++c) {
       const PlacedCurve& curve = curves_[c];
-      if (curve.kind == CurveKind::Mark) continue;
+      if (!isWire(curve.kind)) continue;
       const std::size_t count = curve.path.points.size();
       std::vector<Node> chain;
       for (std::size_t i = 0; i < count; ++i) {

@@ -11,13 +11,14 @@ namespace toile {
 
 // The words that stand in design files for the values of the enumerations.
 
-inline constexpr std::array<std::pair<std::string_view, CurveKind>, 6> kCurveKindNames{{
+inline constexpr std::array<std::pair<std::string_view, CurveKind>, 7> kCurveKindNames{{
     {"seam", CurveKind::Seam},
     {"opening", CurveKind::Opening},
     {"feature", CurveKind::Feature},
     {"elastic", CurveKind::Elastic},
     {"dart", CurveKind::Dart},
     {"mark", CurveKind::Mark},
+    {"guide", CurveKind::Guide},
 }};
 
 inline constexpr std::array<std::pair<std::string_view, SeamKind>, 3> kSeamKindNames{{

@@ -76,6 +76,7 @@ inline constexpr double kLongOn = 12,
     case CurveKind::Elastic:
       return lineStyle(WireKind::Elastic);
     case CurveKind::Mark:
+    case CurveKind::Guide:
       return {kSecondText, Dash::Dashes, 1.3};
   }
   return {};

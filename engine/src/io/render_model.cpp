@@ -269,6 +269,7 @@ void ModelRenderer::Scene::addPieces(const Pattern& pattern) {
 void ModelRenderer::Scene::addLines(const Pattern& pattern) {
   const Mesh& model = *pattern.document.model->mesh;
   for (const PlacedCurve& curve : pattern.curves) {
+    if (curve.kind == CurveKind::Guide) continue;
     Line line{lineStyle(curve.kind), {}};
     for (const SurfacePoint& point : curve.path.points) {
       line.points.push_back(position(model, point));

@@ -36,6 +36,7 @@ const LineStyle& styleOf(CurveKind kind) {
       return kElasticStyle;
     case CurveKind::Mark:
       return kMarkStyle;
+    case CurveKind::Guide:
     case CurveKind::Feature:
     case CurveKind::Seam:
     case CurveKind::Opening:

@@ -202,12 +202,14 @@ TEST(Refine, TheStrongestKindKeepsASharedEdge) {
   }
 }
 
-TEST(Refine, LeavesMarksOut) {
+TEST(Refine, LeavesMarksAndGuidesOut) {
   const Mesh mesh = test::icosphere(100, 2);
   const auto section = test::planeSections(mesh, Eigen::Vector3d(0.1, 0.2, 1), 3.0);
-  const auto refined = refine(mesh, std::vector{drawn("m", CurveKind::Mark, section.at(0))});
-  ASSERT_TRUE(refined) << refined.error();
-  EXPECT_EQ(refined->mesh.faceCount(), mesh.faceCount());
+  for (const CurveKind kind : {CurveKind::Mark, CurveKind::Guide}) {
+    const auto refined = refine(mesh, std::vector{drawn("m", kind, section.at(0))});
+    ASSERT_TRUE(refined) << refined.error();
+    EXPECT_EQ(refined->mesh.faceCount(), mesh.faceCount());
+  }
 }
 
 TEST(Refine, NamesACurveThatIsNotOnTheMesh) {

@@ -89,7 +89,7 @@ class RandomDesign {
     return plane;
   }
   Place place(const Design& design) {
-    switch (below(6)) {
+    switch (below(7)) {
       case 0:
         return AtLandmark{"waist_front", unknown()};
       case 1:
@@ -112,7 +112,7 @@ class RandomDesign {
   }
   CurveWay way(const Design& design) {
     const auto rule = static_cast<SubdivisionRule>(below(3));
-    switch (below(6)) {
+    switch (below(7)) {
       case 0:
         return SmoothWay{places(design), rule, unknown()};
       case 1: {
@@ -149,7 +149,7 @@ class RandomDesign {
     StylingCurve curve;
     curve.id = newId("c");
     curve.name = text();
-    curve.kind = static_cast<CurveKind>(below(6));
+    curve.kind = static_cast<CurveKind>(below(7));
     curve.closed = chance();
     const bool hasWay = chance();
     if (hasWay) curve.way = way(design);

@@ -28,7 +28,8 @@ enum class CurveKind {
   Feature,  ///< stays in one piece, keeps its length
   Elastic,  ///< a feature whose length may move within a range
   Dart,     ///< cut that ends inside a piece
-  Mark      ///< drawn, neither cut nor kept
+  Mark,     ///< drawn on the pieces, neither cut nor kept
+  Guide     ///< for other lines to hang on; nowhere in the pattern
 };
 [[nodiscard]] std::string_view toString(CurveKind kind);
 /// Seam, Opening, Dart: the surface is opened along it.
@@ -38,6 +39,10 @@ enum class CurveKind {
 /// Feature, Elastic: an inner wire.
 [[nodiscard]] constexpr bool isInnerWire(CurveKind kind) {
   return kind == CurveKind::Feature || kind == CurveKind::Elastic;
+}
+/// What the mesh is refined along: all but Mark and Guide.
+[[nodiscard]] constexpr bool isWire(CurveKind kind) {
+  return isCut(kind) || isInnerWire(kind);
 }
 
 /// A surface point as a design and its file hold it: by vertices and faces of the model alone, so
