@@ -104,8 +104,9 @@ class Refiner {
         chain.push_back(nodes[static_cast<std::size_t>(found - sorted.begin())]);
       }
       for (std::size_t i = 0; i < curve.path.faceOfSegment.size(); ++i) {
-        inFace_[curve.path.faceOfSegment[i].index()].push_back(cutting::makeSegment(
-            chain[i], chain[(i + 1) % count], rankOf(curve.kind), static_cast<std::uint32_t>(c)));
+        inFace_[curve.path.faceOfSegment[i].index()].push_back(
+            cutting::makeSegment(chain[i], chain[i + 1 < count ? i + 1 : 0], rankOf(curve.kind),
+                                 static_cast<std::uint32_t>(c)));
       }
     }
     return {};

@@ -45,7 +45,7 @@ double toDisplay(double x) {
     }
     return values;
   }();
-  return table[static_cast<std::size_t>(std::clamp(x, 0.0, 1.0) * kSteps + 0.5)];
+  return table[static_cast<std::size_t>(std::lround(std::clamp(x, 0.0, 1.0) * kSteps))];
 }
 /// The 32nd power, 0 for what faces away.
 double sharpened(double cosine) {
@@ -449,7 +449,9 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
     const Vector3d ground = groundAt(x, y);
     Vector3d sum = Vector3d::Zero();
     for (int i = 0; i < n * n; ++i) {
-      sum += sampleAt(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n, ground).colour;
+      const int column = i % n;
+      const int row = i / n;
+      sum += sampleAt(x + (column + 0.5) / n, y + (row + 0.5) / n, ground).colour;
     }
     return sum / (n * n);
   };
@@ -460,7 +462,8 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
     const int width = std::min(kTile, box.width - left);
     const int height = std::min(kTile, box.height - top);
     const int stride = width + 2;  // one pixel more on every side
-    std::vector<Sample> coarse(static_cast<std::size_t>(stride * (height + 2)));
+    std::vector<Sample> coarse(static_cast<std::size_t>(stride) *
+                               static_cast<std::size_t>(height + 2));
     const auto coarseAt = [&](int x, int y) -> Sample& {
       return coarse[static_cast<std::size_t>((y + 1) * stride + x + 1)];
     };
