@@ -465,7 +465,8 @@ void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& 
     std::vector<Sample> coarse(static_cast<std::size_t>(stride) *
                                static_cast<std::size_t>(height + 2));
     const auto coarseAt = [&](int x, int y) -> Sample& {
-      return coarse[static_cast<std::size_t>((y + 1) * stride + x + 1)];
+      return coarse[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) +
+                    static_cast<std::size_t>(x + 1)];
     };
     for (int y = -1; y <= height; ++y) {
       for (int x = -1; x <= width; ++x) {
