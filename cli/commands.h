@@ -9,5 +9,6 @@ namespace toile::cli {
 void addMake(CLI::App& app, Session& session);
 void addCheck(CLI::App& app, Session& session);
 void addUnfold(CLI::App& app, Session& session);
+void addBody(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

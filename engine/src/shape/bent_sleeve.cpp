@@ -3,6 +3,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "model/vertex_path.h"
+#include "shape/parameters.h"
 #include "shape/shape_model.h"
 #include "toile/core/assert.h"
 #include "toile/core/units.h"
@@ -144,20 +146,27 @@ ReferenceModel makeBentSleeve(const ParameterValues& values) {
   return model;
 }
 
+const std::vector<ShapeParameter>& sleeveParameters() {
+  using Kind = ShapeParameter::Kind;
+  static const std::vector<ShapeParameter> parameters{
+      {"length", Kind::Length, 600, 400, 900},
+      {"armhole-girth", Kind::Length, 400, 250, 600},
+      {"elbow-girth", Kind::Length, 300, 180, 380},
+      {"wrist-girth", Kind::Length, 210, 120, 380},
+      {"bend", Kind::Angle, Angle::degrees(35).radians(), 0, Angle::degrees(50).radians()},
+  };
+  return parameters;
+}
+
 }  // namespace
 
 const BuiltinShape& bentSleeve() {
-  using Kind = ShapeParameter::Kind;
   static const BuiltinShape shape{
-      "bent-sleeve@1",
-      {
-          {"length", Kind::Length, 600, 400, 900},
-          {"armhole-girth", Kind::Length, 400, 250, 600},
-          {"elbow-girth", Kind::Length, 300, 180, 380},
-          {"wrist-girth", Kind::Length, 210, 120, 380},
-          {"bend", Kind::Angle, Angle::degrees(35).radians(), 0, Angle::degrees(50).radians()},
-      },
-      makeBentSleeve};
+      "bent-sleeve@1", [](std::string_view query) -> Result<ReferenceModel> {
+        const Result<ParameterValues> values = parseParameters(query, sleeveParameters());
+        if (!values) return values.error();
+        return makeBentSleeve(*values);
+      }};
   return shape;
 }
 

@@ -11,8 +11,8 @@ namespace {
 
 constexpr std::string_view kPrefix = "builtin:";
 
-std::array<const BuiltinShape*, 2> shapes() {
-  return {&bentSleeve(), &torso()};
+std::array<const BuiltinShape*, 3> shapes() {
+  return {&bentSleeve(), &torso(), &parametricBody()};
 }
 
 }  // namespace
@@ -33,11 +33,10 @@ Result<ReferenceModel> makeBuiltinModel(std::string_view reference) {
     if (shape->name != name) continue;
     const std::string_view query =
         mark == std::string_view::npos ? std::string_view() : reference.substr(mark + 1);
-    const Result<ParameterValues> values = parseParameters(query, shape->parameters);
-    if (!values) return values.error().during("builtin:" + name);
-    ReferenceModel model = shape->make(*values);
-    model.name = name.substr(0, name.find('@'));
-    model.reference = whole;
+    Result<ReferenceModel> model = shape->make(query);
+    if (!model) return model.error().during("builtin:" + name);
+    model->name = name.substr(0, name.find('@'));
+    model->reference = whole;
     return model;
   }
   return Error{ErrorCode::NameNotFound,

@@ -2,30 +2,21 @@
 #pragma once
 
 #include <string>
-#include <vector>
+#include <string_view>
 
-#include "shape/parameters.h"
 #include "toile/model/reference_model.h"
 
 namespace toile {
 
-/// A path along mesh edges. Precondition: each vertex is joined to the next by an edge.
-SurfacePath vertexPath(const Mesh& mesh, const std::vector<VertexId>& vertices, bool closed);
-
-/// The mirror image of a path or point under a pairing of the vertices.
-SurfacePoint mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
-                      const SurfacePoint& point);
-SurfacePath mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
-                     const SurfacePath& path);
-
 /// A kind of model that we generate: builtin:<name>@<version>.
 struct BuiltinShape {
   std::string name;  ///< "bent-sleeve@1"
-  std::vector<ShapeParameter> parameters;
-  ReferenceModel (*make)(const ParameterValues& values);
+  /// From "name=value&name=value"; errors name the parameter.
+  Result<ReferenceModel> (*make)(std::string_view query);
 };
 
 const BuiltinShape& bentSleeve();
 const BuiltinShape& torso();
+const BuiltinShape& parametricBody();
 
 }  // namespace toile

@@ -3,7 +3,9 @@
 #include <array>
 #include <cmath>
 
+#include "model/vertex_path.h"
 #include "shape/level_path.h"
+#include "shape/parameters.h"
 #include "shape/shape_model.h"
 #include "shape/torso_mesh.h"
 #include "toile/core/assert.h"
@@ -261,18 +263,26 @@ ReferenceModel makeTorso(const ParameterValues& values) {
   return model;
 }
 
+const std::vector<ShapeParameter>& torsoParameters() {
+  using Kind = ShapeParameter::Kind;
+  static const std::vector<ShapeParameter> parameters{
+      {"height", Kind::Length, kHeight, 600, 900},
+      {"bust-girth", Kind::Length, 900, 750, 1200},
+      {"waist-girth", Kind::Length, 700, 560, 1100},
+      {"hip-girth", Kind::Length, 960, 780, 1250},
+  };
+  return parameters;
+}
+
 }  // namespace
 
 const BuiltinShape& torso() {
-  using Kind = ShapeParameter::Kind;
-  static const BuiltinShape shape{"torso@1",
-                                  {
-                                      {"height", Kind::Length, kHeight, 600, 900},
-                                      {"bust-girth", Kind::Length, 900, 750, 1200},
-                                      {"waist-girth", Kind::Length, 700, 560, 1100},
-                                      {"hip-girth", Kind::Length, 960, 780, 1250},
-                                  },
-                                  makeTorso};
+  static const BuiltinShape shape{"torso@1", [](std::string_view query) -> Result<ReferenceModel> {
+                                    const Result<ParameterValues> values =
+                                        parseParameters(query, torsoParameters());
+                                    if (!values) return values.error();
+                                    return makeTorso(*values);
+                                  }};
   return shape;
 }
 

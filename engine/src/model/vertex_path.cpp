@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "shape/shape_model.h"
+#include "model/vertex_path.h"
 
 #include <algorithm>
 
