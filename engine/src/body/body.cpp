@@ -19,6 +19,10 @@ namespace {
 using body::Form;
 using body::Measures;
 
+/// Standard deviations that a measure may lie from what the others lead to expect.
+constexpr double kDeviations = 3.5;
+/// Of the height; beyond it there is no room for the arms.
+constexpr double kMostChest = 0.77;
 constexpr double kLeastHeight = 1000, kMostHeight = 2100;
 constexpr double kStandardHeightFemale = 1680, kStandardHeightMale = 1800;
 
@@ -52,13 +56,14 @@ Result<Wish> readWish(const BodyOptions& options) {
   wish.form.masculine = options.masculine;
   for (const auto& [measure, length] : options.measures) wish.given[measure] = length.mm();
   const auto [height, isStandard] = wish.given.emplace(
-      BodyMeasure::Height, kStandardHeightFemale + (kStandardHeightMale - kStandardHeightFemale) *
-                                                       options.masculine);
+      BodyMeasure::Height,
+      kStandardHeightFemale + (kStandardHeightMale - kStandardHeightFemale) * options.masculine);
   if (!(height->second >= kLeastHeight && height->second <= kMostHeight)) {
     const double nearest = height->second > kMostHeight ? kMostHeight : kLeastHeight;
-    return refusal(fmt::format("height {:.0f} mm is not possible: it must be from {:.0f} to {:.0f} "
-                               "mm; nearest: {:.0f} mm",
-                               height->second, kLeastHeight, kMostHeight, nearest));
+    return refusal(
+        fmt::format("height {:.0f} mm is not possible: it must be from {:.0f} to {:.0f} "
+                    "mm; nearest: {:.0f} mm",
+                    height->second, kLeastHeight, kMostHeight, nearest));
   }
   // A small body is a child's unless said otherwise.
   wish.form.childlike =
@@ -72,9 +77,15 @@ BodyRange rangeOf(BodyMeasure measure, const Measures& standard,
     return {Length::mm(given.at(measure)), Length::mm(kLeastHeight), Length::mm(kMostHeight)};
   }
   given.erase(measure);
-  const double expected = body::expectedMeasures(standard, given)[indexOf(measure)];
-  const double freedom = body::freedom(measure);
-  return {Length::mm(expected), Length::mm(expected / freedom), Length::mm(expected * freedom)};
+  const body::Expectation expectation(standard, given);
+  const double expected = expectation.value(measure);
+  const double freedom = std::exp(kDeviations * expectation.deviation(measure));
+  double most = expected * freedom;
+  if (measure == BodyMeasure::Chest) {
+    most = std::min(most, kMostChest * given.at(BodyMeasure::Height));
+  }
+  return {Length::mm(std::min(expected, most)), Length::mm(std::min(expected / freedom, most)),
+          Length::mm(most)};
 }
 
 }  // namespace
@@ -107,8 +118,7 @@ Result<Posture> parsePosture(std::string_view text) {
 Result<std::vector<BodyRange>> bodyRanges(const BodyOptions& options) {
   const Result<Wish> wish = readWish(options);
   if (!wish) return wish.error();
-  const Measures standard =
-      body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
+  const Measures standard = body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
   std::vector<BodyRange> ranges;
   for (const BodyMeasureInfo& info : bodyMeasures()) {
     ranges.push_back(rangeOf(info.measure, standard, wish->given));
@@ -119,8 +129,7 @@ Result<std::vector<BodyRange>> bodyRanges(const BodyOptions& options) {
 Result<ReferenceModel> makeBody(const BodyOptions& options) {
   const Result<Wish> wish = readWish(options);
   if (!wish) return wish.error();
-  const Measures standard =
-      body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
+  const Measures standard = body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
   for (const auto& [measure, value] : wish->given) {
     const BodyRange range = rangeOf(measure, standard, wish->given);
     if (value >= range.least.mm() && value <= range.most.mm()) continue;
@@ -131,7 +140,11 @@ Result<ReferenceModel> makeBody(const BodyOptions& options) {
         bodyMeasures()[indexOf(measure)].name, value, least, most,
         value > range.most.mm() ? most : least));
   }
-  const Measures wanted = body::expectedMeasures(standard, wish->given);
+  const body::Expectation expectation(standard, wish->given);
+  Measures wanted{};
+  for (const BodyMeasureInfo& info : bodyMeasures()) {
+    wanted[indexOf(info.measure)] = expectation.value(info.measure);
+  }
   const std::optional<body::Points> cage = body::fitDials(wish->form, wanted);
   if (!cage) {
     return refusal(
@@ -140,8 +153,8 @@ Result<ReferenceModel> makeBody(const BodyOptions& options) {
   }
   const Mesh& connectivity = *body::bodyTemplate().mesh;
   ReferenceModel model = makeReferenceModel(
-      "body", connectivity.withPositions(
-                  body::inPosture(body::meshPositions(*cage), options.posture)));
+      "body",
+      connectivity.withPositions(body::inPosture(body::meshPositions(*cage), options.posture)));
   model.curves = body::bodyTemplate().curves;
   model.landmarks = body::bodyTemplate().landmarks;
   model.symmetry = body::bodyTemplate().symmetry;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Cholesky>
 #include <map>
 
 #include "body/tape.h"
@@ -12,11 +13,23 @@ namespace toile::body {
 /// own. What is not given is expected at the mean that the given ones leave.
 ///
 /// @param standard of the form at the given height
-/// @param given mm
-/// @return every measure, mm; the given ones as they are
-Measures expectedMeasures(const Measures& standard, const std::map<BodyMeasure, double>& given);
+class Expectation {
+ public:
+  /// @param given mm; measures of a body
+  Expectation(const Measures& standard, const std::map<BodyMeasure, double>& given);
 
-/// By what factor a measure may lie above (and one over it, below) what the others lead to expect.
-double freedom(BodyMeasure measure);
+  /// The given value, or the mean, mm.
+  [[nodiscard]] double value(BodyMeasure measure) const;
+  /// Standard deviation of its log that the given ones leave.
+  [[nodiscard]] double deviation(BodyMeasure measure) const;
+
+ private:
+  [[nodiscard]] Eigen::VectorXd covariances(BodyMeasure measure) const;
+
+  Measures standard_;
+  std::map<BodyMeasure, double> given_;
+  Eigen::LLT<Eigen::MatrixXd> among_;  ///< of the given ones
+  Eigen::VectorXd weights_;
+};
 
 }  // namespace toile::body

@@ -17,7 +17,7 @@ constexpr double kDegree = std::numbers::pi / 180;
 
 /// Shares per vertex of the refined net; those of the left half count.
 struct Shares {
-  Eigen::VectorXd hip, knee, shoulder;
+  Eigen::VectorXd bothHips, oneHip, knee, shoulder;
 };
 
 /// Smooth between the control vertices, within 0..1.
@@ -28,16 +28,17 @@ Eigen::VectorXd refined(const Eigen::VectorXd& control) {
   return out.col(0).cwiseMax(0.0).cwiseMin(1.0);
 }
 
-Eigen::VectorXd hipShares() {
+/// Of both hips at once the middle goes along; of one it stays where it is.
+Eigen::VectorXd hipShares(bool both) {
   const ControlNet& net = controlNet();
   Eigen::VectorXd control = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(net.vertexCount()));
   const auto set = [&](NetVertex v, double share) {
     control[static_cast<Eigen::Index>(v)] = share;
   };
-  // The middle stays where it is, so that one leg can bend alone.
-  const auto aside = [](std::size_t column) {
+  const auto aside = [&](std::size_t column) {
     const std::size_t fromMiddle = std::min(column, kBackColumn - column);
-    return fromMiddle == 0 ? 0.0 : fromMiddle == 1 ? 0.7 : 1.0;
+    if (fromMiddle > 1) return 1.0;
+    return fromMiddle == 1 ? (both ? 0.85 : 0.65) : (both ? 0.6 : 0.0);
   };
   for (std::size_t column = 0; column <= kBackColumn; ++column) {
     set(net.torso(kHighHipRow, column), 0.04 * aside(column));
@@ -46,11 +47,12 @@ Eigen::VectorXd hipShares() {
   }
   for (std::size_t spoke = 0; spoke < kLegSpokes; ++spoke) {
     const bool isInner = spoke == 0 || spoke >= kLegInner - 1;
-    set(net.leg(Side::Left, 1, spoke), isInner ? 0.6 : 0.78);
+    set(net.leg(Side::Left, 1, spoke), isInner ? (both ? 0.68 : 0.6) : 0.78);
     set(net.leg(Side::Left, 2, spoke), isInner ? 0.94 : 0.97);
     for (std::size_t row = 3; row <= kToeRow; ++row) set(net.leg(Side::Left, row, spoke), 1);
   }
   for (std::size_t i = 0; i < kToeTips; ++i) set(net.toeTip(Side::Left, i), 1);
+  if (both) set(net.crotch(), 0.4);
   return refined(control);
 }
 
@@ -106,7 +108,7 @@ Eigen::VectorXd shoulderShares() {
 }
 
 const Shares& shares() {
-  static const Shares all{hipShares(), kneeShares(), shoulderShares()};
+  static const Shares all{hipShares(true), hipShares(false), kneeShares(), shoulderShares()};
   return all;
 }
 
@@ -145,10 +147,14 @@ std::vector<Bend> bends(const std::vector<Vector3d>& places, Posture posture) {
       return {{&shares().shoulder, shoulder, upwards, 85 * kDegree}};
     case Posture::KneeBent:
       return {{&shares().knee, knee, backwards, 70 * kDegree},
-              {&shares().hip, hip, -backwards, 50 * kDegree}};
-    case Posture::Seated:
-      return {{&shares().knee, knee, backwards, 82 * kDegree},
-              {&shares().hip, hip, -backwards, 82 * kDegree}};
+              {&shares().oneHip, hip, -backwards, 50 * kDegree}};
+    case Posture::Seated: {
+      // A belly leaves the thighs less room to rise.
+      const double height = places[net.crown(kCrownAcross / 2, kCrownAlong / 2)].z();
+      const double belly = hip.y() - places[net.torso(kAbdomenRow, 0)].y();
+      const double rise = (82 - 40 * std::clamp(belly / height / 0.045 - 1.6, 0.0, 1.0)) * kDegree;
+      return {{&shares().knee, knee, backwards, rise}, {&shares().bothHips, hip, -backwards, rise}};
+    }
   }
   return {};
 }
@@ -161,13 +167,14 @@ std::vector<Vector3d> inPosture(std::vector<Vector3d> places, Posture posture) {
   const std::vector<std::size_t>& partner = subdivision().partner();
   for (std::size_t v = 0; v < places.size(); ++v) {
     const bool isMiddle = partner[v] == v;
-    if (places[v].x() < 0 || (isMiddle && places[v].x() != 0)) continue;
+    if (places[v].x() < 0) continue;
     Vector3d place = places[v];
     for (const Bend& bend : all) {
-      const double share = isMiddle ? 0 : (*bend.share)[static_cast<Eigen::Index>(v)];
+      // Only turns about the x axis move the middle, and they keep it in its plane.
+      const bool isStill = isMiddle && bend.axis.x() == 0;
+      const double share = isStill ? 0 : (*bend.share)[static_cast<Eigen::Index>(v)];
       if (share == 0) continue;
-      place = bend.joint +
-              Eigen::AngleAxisd(share * bend.angle, bend.axis) * (place - bend.joint);
+      place = bend.joint + Eigen::AngleAxisd(share * bend.angle, bend.axis) * (place - bend.joint);
     }
     places[v] = place;
     if (!isMiddle && posture != Posture::KneeBent) {
