@@ -39,6 +39,52 @@ void unfoldPatch(benchmark::State& state, const std::string& name) {
   state.counters["crossings"] = static_cast<double>(flat.check.crossings);
 }
 
+void previewPatch(benchmark::State& state, const std::string& name) {
+  const Piece* piece = patch(name);
+  if (piece == nullptr) return state.SkipWithError("no test data; set TOILE_TEST_DATA");
+  FlatPiece flat;
+  for (auto _ : state) flat = *UnfoldPreview().update(*piece);
+  state.counters["area_error_percent"] = 100 * flat.meanAreaError;
+  state.counters["length_error"] = flat.check.maxLengthError;
+}
+
+/// The piece with another shape: swollen by half a percent of its size at one place.
+Piece swollen(const Piece& piece, double share) {
+  std::vector<Eigen::Vector3d> positions = piece.mesh->positions();
+  const Eigen::Vector3d middle = 0.5 * (piece.mesh->boxMin() + piece.mesh->boxMax());
+  const double size = (piece.mesh->boxMax() - piece.mesh->boxMin()).norm();
+  for (Eigen::Vector3d& p : positions) {
+    const Eigen::Vector3d away = p - middle;
+    p += share * size * away.normalized() * std::exp(-away.squaredNorm() / (0.05 * size * size));
+  }
+  Piece other = piece;
+  other.mesh = std::make_shared<const Mesh>(piece.mesh->withPositions(std::move(positions)));
+  for (Wire& wire : other.wires) {
+    for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
+      wire.targetLength[i] =
+          (other.mesh->position(wire.vertices[i]) - other.mesh->position(wire.vertices[i + 1]))
+              .norm();
+    }
+  }
+  return other;
+}
+
+void warmPatch(benchmark::State& state, const std::string& name) {
+  const Piece* piece = patch(name);
+  if (piece == nullptr) return state.SkipWithError("no test data; set TOILE_TEST_DATA");
+  const Piece other = swollen(*piece, 0.005);
+  UnfoldPreview preview;
+  (void)preview.update(*piece);
+  bool changed = false;
+  FlatPiece flat;
+  for (auto _ : state) {
+    changed = !changed;
+    flat = *preview.update(changed ? other : *piece);
+  }
+  state.counters["area_error_percent"] = 100 * flat.meanAreaError;
+  state.counters["length_error"] = flat.check.maxLengthError;
+}
+
 void cgalPatch(benchmark::State& state, const std::string& name) {
   const Piece* piece = patch(name);
   if (piece == nullptr) return state.SkipWithError("no test data; set TOILE_TEST_DATA");
@@ -61,6 +107,8 @@ const int kRegistered = [] {
           ->Unit(benchmark::kMillisecond);
     };
     add("Unfold", unfoldPatch);
+    add("Preview", previewPatch);
+    add("WarmPreview", warmPatch);
     add("CgalLscm", cgalPatch);
     add("Factorisation", factorPatch);
   }

@@ -15,8 +15,6 @@ namespace {
 constexpr double kPenalty = 1e6;
 /// Full compression of the wires is in the matrix only where the lengths are nearly right.
 constexpr double kNearLengths = 1e-2;
-constexpr double kLengthTolerance = 1e-4;
-constexpr double kDecreaseTolerance = 1e-4;
 constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
 constexpr double kStallStep = 1e-4;
@@ -99,17 +97,19 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
   return s;
 }
 
-NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Progress* progress) {
+NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& limits,
+                                      const Progress* progress) {
   double compression = 1;
   int shortSteps = 0;
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
   Eigen::VectorXd c = lengths_->residual(state.q);
   double e = energy(state.q);
-  for (; state.steps < maxSteps; ++state.steps) {
+  for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     lengths_->linearise(state.q);
     const bool near = lengths_->worst(c) < kNearLengths;
     bool factored = assembleAndFactor(state, near ? compression : 0);
+    lastStepWasConvex_ = factored && near && compression == 1;
     if (!factored && near) {
       compression *= 0.5;
       factored = assembleAndFactor(state, compression);
@@ -157,7 +157,7 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Pr
     }
     if (!accepted) {
       // No way down that doubles can show: arrived if the lengths are right.
-      return lengths_->worst(c) < kLengthTolerance ? NewtonEnd::Converged : NewtonEnd::Stalled;
+      return lengths_->worst(c) < limits.lengths ? NewtonEnd::Converged : NewtonEnd::Stalled;
     }
     state.q = trial;
     state.lambda += alpha * (lambda - state.lambda);
@@ -167,12 +167,12 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Pr
     compression = std::min(1.0, 1.5 * compression + 0.1);
 
     const double error = lengths_->worst(c);
-    if (error < kLengthTolerance && alpha > 0.5 &&
-        -slope < kDecreaseTolerance * e + 1e-18 * areaScale_) {
+    if (error < limits.lengths && alpha > 0.5 &&
+        -slope < limits.decrease * e + 1e-18 * areaScale_) {
       ++state.steps;
       return NewtonEnd::Converged;
     }
-    shortSteps = alpha < kStallStep && error > kLengthTolerance ? shortSteps + 1 : 0;
+    shortSteps = alpha < kStallStep && error > limits.lengths ? shortSteps + 1 : 0;
     if (shortSteps >= kStallSteps) return NewtonEnd::Stalled;
   }
   return NewtonEnd::StepLimit;
@@ -205,6 +205,19 @@ double ConstrainedNewton::project(NewtonState& state) {
   }
   for (EnergyTerm* term : terms_) term->moveTo(state.q);
   return error;
+}
+
+void ConstrainedNewton::projectRoughly(NewtonState& state) {
+  constexpr int kRounds = 2;
+  constexpr double kEnough = 1e-5;
+  for (int i = 0; i < kRounds; ++i) {
+    const Eigen::VectorXd c = lengths_->residual(state.q);
+    if (lengths_->worst(c) < kEnough) break;
+    const Plane trial = state.q + leastCorrection(c, 1);
+    if (!std::isfinite(energy(trial))) break;
+    state.q = trial;
+  }
+  for (EnergyTerm* term : terms_) term->moveTo(state.q);
 }
 
 bool ConstrainedNewton::isStableAt(const NewtonState& state) {

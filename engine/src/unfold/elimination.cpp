@@ -50,7 +50,8 @@ Earlier earlierNeighbours(const BlockPattern& pattern, const std::vector<int>& p
     for (std::size_t j = 0; j < n; ++j) {
       for (int k = pattern.nodeStart()[j]; k < pattern.nodeStart()[j + 1]; ++k) {
         const int a = placeOfNode[j];
-        const int b = placeOfNode[static_cast<std::size_t>(pattern.nodeRow()[static_cast<std::size_t>(k)])];
+        const int b =
+            placeOfNode[static_cast<std::size_t>(pattern.nodeRow()[static_cast<std::size_t>(k)])];
         visit(static_cast<std::size_t>(std::max(a, b)), std::min(a, b));
       }
     }
@@ -149,7 +150,8 @@ std::vector<int> supernodeStarts(const std::vector<int>& parent, const std::vect
   for (int j = 0; j < n; ++j) {
     Range range{j, j + 1, count[static_cast<std::size_t>(j)] - 1, 0};
     // The last range may join if its parent is the place that follows.
-    while (!ranges.empty() && parent[static_cast<std::size_t>(ranges.back().end - 1)] == range.first) {
+    while (!ranges.empty() &&
+           parent[static_cast<std::size_t>(ranges.back().end - 1)] == range.first) {
       const Range& child = ranges.back();
       const double pivots = child.end - child.first;
       const double more = range.end - range.first + range.below - child.below;
@@ -157,8 +159,8 @@ std::vector<int> supernodeStarts(const std::vector<int>& parent, const std::vect
       const double all = range.end - child.first;
       const double size = all * (all + 1) / 2 + all * range.below;
       const bool small = all <= kSmall;
-      const bool joins = more == 0 || all <= kAlwaysMerged ||
-                         zeros < size * (small ? kZerosOfSmall : kZeros);
+      const bool joins =
+          more == 0 || all <= kAlwaysMerged || zeros < size * (small ? kZerosOfSmall : kZeros);
       if (!joins) break;
       range = {child.first, range.end, range.below, zeros};
       ranges.pop_back();
@@ -217,7 +219,8 @@ Elimination::Elimination(const BlockPattern& pattern) : placeOfNode(pattern.node
     for (std::size_t j = 0; j < placeOfNode.size(); ++j) {
       for (int k = pattern.nodeStart()[j]; k < pattern.nodeStart()[j + 1]; ++k) {
         const int a = placeOfNode[j];
-        const int b = placeOfNode[static_cast<std::size_t>(pattern.nodeRow()[static_cast<std::size_t>(k)])];
+        const int b =
+            placeOfNode[static_cast<std::size_t>(pattern.nodeRow()[static_cast<std::size_t>(k)])];
         const auto first = static_cast<std::size_t>(std::min(a, b));
         if (pass == 0) {
           ++start[first + 1];

@@ -9,10 +9,10 @@ namespace toile::unfolding {
 
 /// Nodes that are eliminated together: their columns of the factor have the same rows below.
 struct Supernode {
-  int first = 0, end = 0;       ///< its pivots, in elimination order
-  std::vector<int> rows;        ///< nodes below that its columns reach, ascending
-  int parent = -1;              ///< the supernode of rows.front()
-  std::vector<int> rowsInPanel; ///< where `rows` stand among pivots and rows of the parent
+  int first = 0, end = 0;        ///< its pivots, in elimination order
+  std::vector<int> rows;         ///< nodes below that its columns reach, ascending
+  int parent = -1;               ///< the supernode of rows.front()
+  std::vector<int> rowsInPanel;  ///< where `rows` stand among pivots and rows of the parent
   [[nodiscard]] int pivots() const { return end - first; }
   [[nodiscard]] int below() const { return static_cast<int>(rows.size()); }
 };
