@@ -19,6 +19,7 @@ namespace {
 struct UnfoldArguments {
   std::filesystem::path in, out;
   std::string objective = "least-strain";
+  std::string weights = "length";
   UnfoldOptions options;
 };
 
@@ -31,6 +32,7 @@ std::string toJson(const FlatPiece& flat, std::size_t faces) {
       {"maxAreaError", flat.maxAreaError},
       {"steps", flat.steps},
       {"wireStiffness", flat.wireStiffness},
+      {"wireBending", flat.wireBending},
       {"check",
        {{"passes", flat.check.passes()},
         {"maxLengthError", flat.check.maxLengthError},
@@ -46,19 +48,16 @@ std::string toJson(const FlatPiece& flat, std::size_t faces) {
 }
 
 int runUnfold(const UnfoldArguments& arguments, const Session& session) {
-  if (arguments.objective == "wirewarping") {
-    return fail({ErrorCode::Unsupported,
-                 "--objective=wirewarping is not part of this version yet; leave it out for the "
-                 "least strain with exact lengths",
-                 {}});
-  }
   const std::string name = arguments.in.string();
   const Result<MeshFile> file = readMesh(arguments.in, {.unit = session.units});
   if (!file) return fail(file.error());
   const Result<Piece> piece =
       makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
   if (!piece) return fail(piece.error().during(name));
-  const Result<FlatPiece> flat = unfold(*piece, arguments.options);
+  UnfoldOptions options = arguments.options;
+  if (arguments.objective == "wirewarping") options.objective = UnfoldObjective::WireWarping;
+  if (arguments.weights == "unit") options.weights = WireWeights::Unit;
+  const Result<FlatPiece> flat = unfold(*piece, options);
   if (!flat) return fail(flat.error().during(name));
   const Result<void> written = writeFileWhole(
       arguments.out, writePatchObj(file->mesh, file->chains, file->targets, *piece, *flat));
@@ -93,8 +92,13 @@ void addUnfold(CLI::App& app, Session& session) {
       ->type_name("FILE");
   command
       ->add_option("--objective", arguments->objective,
-                   "least-strain (default); wirewarping is not part of this version yet")
+                   "least-strain: of the cloth (default); wirewarping: bend the wires the least")
       ->check(CLI::IsMember({"least-strain", "wirewarping"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--weights", arguments->weights,
+                   "How corners count in wirewarping: by length of wire (default), or unit")
+      ->check(CLI::IsMember({"length", "unit"}))
       ->type_name("NAME");
   command
       ->add_option("--area-weight", arguments->options.areaWeight,

@@ -13,7 +13,7 @@ namespace {
 /// Weight of J^T J. With 1e4 the KKT system needs half as many solves again, with 1e2 the lengths
 /// stay inexact; larger costs digits.
 constexpr double kPenalty = 1e6;
-/// Full compression of the wires is in the matrix only where the lengths are nearly right.
+/// The full Hessian is in the matrix only where the lengths are nearly right.
 constexpr double kNearLengths = 1e-2;
 constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
@@ -26,11 +26,12 @@ constexpr int kMaxProjections = 30;
 
 ConstrainedNewton::ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
                                      const BlockPattern& pattern, SparseFactor& factor,
-                                     std::pair<std::uint32_t, std::uint32_t> hold, double areaScale)
+                                     std::vector<std::pair<std::uint32_t, std::uint32_t>> holds,
+                                     double areaScale)
     : terms_(std::move(terms)),
       lengths_(&lengths),
       factor_(&factor),
-      hold_(hold),
+      holds_(std::move(holds)),
       areaScale_(areaScale),
       matrix_(pattern) {}
 
@@ -40,15 +41,18 @@ double ConstrainedNewton::energy(const Plane& q) const {
   return sum;
 }
 
-bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double compression) {
+bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indefinite) {
   matrix_.setZero();
   gradient_ = Eigen::VectorXd::Zero(state.q.size());
-  for (const EnergyTerm* term : terms_) term->addDerivatives(state.q, gradient_, matrix_);
-  lengths_->addCurvature(state.lambda, compression, kPenalty, matrix_);
+  for (const EnergyTerm* term : terms_)
+    term->addDerivatives(state.q, indefinite, gradient_, matrix_);
+  lengths_->addCurvature(state.lambda, indefinite, kPenalty, matrix_);
   // Moving and turning cost nothing; springs hold them without changing the solution.
-  const Eigen::Vector2d line = (at(state.q, hold_.second) - at(state.q, hold_.first)).normalized();
-  matrix_.addDiagonal(hold_.first, 1, 0, 1);
-  matrix_.addDiagonal(hold_.second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
+  for (const auto& [first, second] : holds_) {
+    const Eigen::Vector2d line = (at(state.q, second) - at(state.q, first)).normalized();
+    matrix_.addDiagonal(first, 1, 0, 1);
+    matrix_.addDiagonal(second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
+  }
   return factor_->factor(matrix_);
 }
 
@@ -99,7 +103,7 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
 
 NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& limits,
                                       const Progress* progress) {
-  double compression = 1;
+  double indefinite = 1;
   int shortSteps = 0;
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
   Eigen::VectorXd c = lengths_->residual(state.q);
@@ -108,13 +112,13 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     lengths_->linearise(state.q);
     const bool near = lengths_->worst(c) < kNearLengths;
-    bool factored = assembleAndFactor(state, near ? compression : 0);
-    lastStepWasConvex_ = factored && near && compression == 1;
+    bool factored = assembleAndFactor(state, near ? indefinite : 0);
+    lastStepWasConvex_ = factored && near && indefinite == 1;
     if (!factored && near) {
-      compression *= 0.5;
-      factored = assembleAndFactor(state, compression);
+      indefinite *= 0.5;
+      factored = assembleAndFactor(state, indefinite);
       if (!factored) {
-        compression *= 0.5;
+        indefinite *= 0.5;
         factored = assembleAndFactor(state, 0);
       }
     }
@@ -164,7 +168,7 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
     c = trialC;
     e = trialE;
     for (EnergyTerm* term : terms_) term->moveTo(state.q);
-    compression = std::min(1.0, 1.5 * compression + 0.1);
+    indefinite = std::min(1.0, 1.5 * indefinite + 0.1);
 
     const double error = lengths_->worst(c);
     if (error < limits.lengths && alpha > 0.5 &&

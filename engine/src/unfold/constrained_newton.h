@@ -35,14 +35,15 @@ enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
 ///   docs/unfolding.md.
 class ConstrainedNewton {
  public:
-  /// @param hold two vertices that fix place and direction of the plane.
+  /// @param holds two vertices that fix place and direction of the plane; a pair for each part
+  ///   that can move by itself.
   ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
                     const BlockPattern& pattern, SparseFactor& factor,
-                    std::pair<std::uint32_t, std::uint32_t> hold, double areaScale);
+                    std::vector<std::pair<std::uint32_t, std::uint32_t>> holds, double areaScale);
 
   [[nodiscard]] NewtonEnd minimise(NewtonState& state, const NewtonLimits& limits,
                                    const Progress* progress);
-  /// Whether the last factorisation of minimise() had the wires' compression fully counted.
+  /// Whether the last factorisation of minimise() was of the full Hessian.
   [[nodiscard]] bool lastStepWasConvex() const { return lastStepWasConvex_; }
   /// Moves q the least so that the lengths are right to rounding.
   /// @return greatest error left, relative to max(target, 1 mm).
@@ -55,14 +56,14 @@ class ConstrainedNewton {
 
  private:
   [[nodiscard]] double energy(const Plane& q) const;
-  [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double compression);
+  [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double indefinite);
   void solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda, Plane& d);
   [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
 
   std::vector<EnergyTerm*> terms_;
   WireLengths* lengths_;
   SparseFactor* factor_;
-  std::pair<std::uint32_t, std::uint32_t> hold_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> holds_;
   double areaScale_;
   bool lastStepWasConvex_ = false;
   BlockMatrix matrix_;

@@ -1,10 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
+#include <set>
+#include <span>
 
 #include "unfold/check.h"
+#include "unfold/over_bracing.h"
 #include "unfold/solution.h"
 
 namespace toile::unfolding {
@@ -44,18 +48,54 @@ std::vector<Element> worstWires(const Piece& piece, const Problem& problem,
   return where;
 }
 
+/// Curves whose edges brace each other more than rigidly, in the piece's order.
+std::vector<std::string> overBracedCurves(const Piece& piece, const Problem& problem) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> bars;
+  bars.reserve(problem.wireEdges.size());
+  for (const WireEdge& edge : problem.wireEdges) bars.emplace_back(edge.a, edge.b);
+  std::set<std::uint32_t> wires;
+  for (const auto& part : findOverBraced(problem.vertexCount, bars)) {
+    for (const std::uint32_t bar : part) wires.insert(problem.wireEdges[bar].wire);
+  }
+  std::vector<std::string> curves;
+  for (const std::uint32_t wire : wires) {
+    const std::string curve = wire == WireEdge::kNoWire ? "border" : piece.wires[wire].curve;
+    if (std::find(curves.begin(), curves.end(), curve) == curves.end()) curves.push_back(curve);
+  }
+  return curves;
+}
+
 }  // namespace
 
 Error infeasible(const Piece& piece, const Problem& problem, const Plane& q,
                  const WireLengths& lengths) {
   const Eigen::VectorXd residual = lengths.residual(q);
   std::vector<Element> where = worstWires(piece, problem, residual);
+  const std::vector<std::string> braced = overBracedCurves(piece, problem);
+  const std::string left = fmt::format("{:.2g} % is left", 100 * lengths.worst(residual));
+  if (!braced.empty()) {
+    for (auto curve = braced.rbegin(); curve != braced.rend(); ++curve) {
+      std::erase(where, Element::curve(*curve));
+      where.insert(where.begin(), Element::curve(*curve));
+    }
+    if (where.size() > kMaxNamed) where.resize(kMaxNamed);
+    constexpr std::size_t kMaxInMessage = 6;
+    const std::span<const std::string> named(braced.data(), std::min(braced.size(), kMaxInMessage));
+    return {
+        ErrorCode::LengthsInfeasible,
+        fmt::format("\"{}\"{} brace each other so that not all lengths can be kept ({}); take "
+                    "one away, make one elastic, or give the lines between their crossings more "
+                    "points",
+                    fmt::join(named, "\", \""), braced.size() > kMaxInMessage ? " and others" : "",
+                    left),
+        std::move(where)};
+  }
   const std::string first =
       !where.empty() && where.front().kind == Element::Kind::Curve ? where.front().name : "border";
   return {ErrorCode::LengthsInfeasible,
-          fmt::format("the lengths of the wires contradict each other: {:.2g} % is left, the worst "
-                      "at \"{}\"; release a feature there, make it elastic or split the piece",
-                      100 * lengths.worst(residual), first),
+          fmt::format("the lengths of the wires contradict each other: {}, the worst at \"{}\"; "
+                      "release a feature there, make it elastic or split the piece",
+                      left, first),
           std::move(where)};
 }
 
@@ -116,6 +156,12 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
     findings.push_back({"wires-may-wave",
                         "some wires are too long for the cloth they enclose and stand under high "
                         "compression; a dart or an elastic line would relieve them",
+                        {}});
+  }
+  if (flat.check.flippedFaces > 0) {
+    findings.push_back({"folds",
+                        fmt::format("{} faces are folded: the cloth does not fit between the wires",
+                                    flat.check.flippedFaces),
                         {}});
   }
   if (!solution.finished) {

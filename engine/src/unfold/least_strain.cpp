@@ -43,11 +43,12 @@ double highestCompression(const Problem& problem, const Eigen::VectorXd& lambda)
 
 BlockPattern couplingsOf(const Problem& problem) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  pairs.reserve(3 * problem.triangles.size() + problem.corners.size());
+  pairs.reserve(3 * problem.triangles.size() + problem.corners.size() + problem.wireEdges.size());
   for (const RestTriangle& t : problem.triangles) {
     for (std::size_t k = 0; k < 3; ++k) pairs.emplace_back(t.vertex[k], t.vertex[(k + 1) % 3]);
   }
   for (const Corner& c : problem.corners) pairs.emplace_back(c.before, c.after);
+  for (const WireEdge& edge : problem.wireEdges) pairs.emplace_back(edge.a, edge.b);
   return {problem.vertexCount, pairs};
 }
 
@@ -78,9 +79,9 @@ Result<void> LeastStrain::start(const Piece& piece) {
   const auto hold = farBoundaryPair(*problem_, positions);
   Result<Plane> q = unfoldedStart(*problem_, positions, hold, pattern_, factor_);
   if (!q) return q.error();
-  bending_.emplace(*problem_, pattern_, *q);
-  newton_.emplace(std::vector<EnergyTerm*>{&strain_, &*bending_}, lengths_, pattern_, factor_, hold,
-                  problem_->area);
+  bending_.emplace(*problem_, pattern_, cornerAngles(*problem_, *q));
+  newton_.emplace(std::vector<EnergyTerm*>{&strain_, &*bending_}, lengths_, pattern_, factor_,
+                  std::vector{hold}, problem_->area);
   solution_ = {};
   solution_.state.q = *std::move(q);
   solution_.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.count()));
@@ -143,8 +144,7 @@ Result<Solution> LeastStrain::preview(const Piece& piece, Progress* progress) {
   }
   solution_.state.steps = 0;
   const double load = stiffen();
-  const NewtonEnd end =
-      newton_->minimise(solution_.state, kPreview, progress);
+  const NewtonEnd end = newton_->minimise(solution_.state, kPreview, progress);
   if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
   newton_->projectRoughly(solution_.state);
   const double buckling = highestCompression(*problem_, solution_.state.lambda) / load;

@@ -20,7 +20,8 @@ struct Solution {
   double buckling = 0;  ///< highest compression as a share of the buckling load
   bool finished = true;
   bool stable = true;
-  double meanEnergy = 0;  ///< per area, of the strain alone
+  double wireBending = 0;  ///< J
+  double meanEnergy = 0;   ///< per area, of the strain alone
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
 };
 

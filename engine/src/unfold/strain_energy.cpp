@@ -100,7 +100,7 @@ double StrainEnergy::energy(const Plane& q) const {
 // orthonormal modes: two scalings along the singular vectors, which the 2x2 matrix of second
 // derivatives mixes, the twist (turning F) and the flip (turning its reflection part); see Smith,
 // De Goes and Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG 38(1), 2019.
-void StrainEnergy::addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+void StrainEnergy::addDerivatives(const Plane& q, double /*indefinite*/, Eigen::VectorXd& gradient,
                                   BlockMatrix& hessian) const {
   for (std::size_t i = 0; i < problem_->triangles.size(); ++i) {
     const RestTriangle& t = problem_->triangles[i];

@@ -9,6 +9,7 @@
 
 #include "unfold/check.h"
 #include "unfold/least_strain.h"
+#include "unfold/wire_warping.h"
 
 namespace toile {
 namespace {
@@ -49,6 +50,7 @@ FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOpti
   flat.check = makeCheck(problem, q, findFlips(problem, q).size(), solution.crossings.size());
   flat.steps = solution.state.steps;
   flat.wireStiffness = solution.wireStiffness;
+  flat.wireBending = solution.wireBending;
   for (std::size_t i = 0; i < problem.triangles.size(); ++i) {
     const double error = std::abs(flat.distortion[FaceId(i)].areaRatio() - 1);
     flat.meanAreaError += error * problem.triangles[i].area / problem.area;
@@ -78,8 +80,9 @@ Result<FlatPiece> unfold(const Piece& piece, const UnfoldOptions& options, Progr
   if (Result<void> valid = checkOptions(options); !valid) return valid.error();
   Result<Problem> problem = makeProblem(piece);
   if (!problem) return problem.error();
-  LeastStrain solver(*problem, options);
-  Result<Solution> solution = solver.solve(piece, progress);
+  Result<Solution> solution = options.objective == UnfoldObjective::WireWarping
+                                  ? warpWires(piece, *problem, options, progress)
+                                  : LeastStrain(*problem, options).solve(piece, progress);
   if (!solution) return solution.error();
   return flatPiece(piece, *problem, options, *std::move(solution));
 } catch (const std::bad_alloc&) {

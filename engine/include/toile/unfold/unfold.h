@@ -15,7 +15,19 @@
 
 namespace toile {
 
+enum class UnfoldObjective {
+  LeastStrain,  ///< least strain of the cloth, wires stay smooth
+  WireWarping   ///< wires bent the least; the cloth is filled in
+};
+/// How the corners of wires count in WireWarping.
+enum class WireWeights {
+  Unit,   ///< all the same, as in the paper: the answer depends on the sampling
+  Length  ///< by 1 / length of wire; corners and junctions by 1 / mean length
+};
+
 struct UnfoldOptions {
+  UnfoldObjective objective = UnfoldObjective::LeastStrain;
+  WireWeights weights = WireWeights::Length;  ///< of WireWarping
   /// kappa of the objective: price of area change against shear; 0 = plain symmetric Dirichlet.
   double areaWeight = 2;  ///< 0..1000
   /// beta: wires cannot wave below beta * sqrt(area); raised by its own rule where they would
@@ -54,6 +66,9 @@ struct FlatPiece {
   double wireStiffness = 0;  ///< the beta used at the end
   double meanAreaError = 0;  ///< area-weighted mean of |A2/A3 - 1|
   double maxAreaError = 0;
+  /// Sum of w (theta - alpha)^2 over the wire corners, WireWarping's J; without the constant of the
+  /// tips of wires that end in the cloth. 0 with the other objective.
+  double wireBending = 0;
   std::vector<Finding> findings;  ///< crossings, high strain, saddle point, ...
 };
 
