@@ -102,9 +102,9 @@ struct Cap {
     mesh = *makeMesh(positions, triangles);
   }
   static std::uint32_t at(int j, int i) {
-    return j == 0 ? 0
-                  : static_cast<std::uint32_t>(1 + (j - 1) * kSegments +
-                                               (i + kSegments) % kSegments);
+    return j == 0
+               ? 0
+               : static_cast<std::uint32_t>(1 + (j - 1) * kSegments + (i + kSegments) % kSegments);
   }
   /// From ring `from` to ring `to` at segment i.
   static PolygonSoup::Chain spoke(const std::string& group, int i, int from, int to) {
@@ -153,7 +153,8 @@ std::vector<GeneratedPiece> generatedPieces() {
       {Cap::spoke("wire_feature_a", 0, 0, rows), Cap::spoke("wire_feature_b", 12, 0, rows),
        Cap::arc("wire_feature_c", 4, 0, 6), Cap::spoke("wire_feature_d", 6, 4, rows)});
   add("cap60-closed-and-linked", cap.mesh,
-      {Cap::arc("wire_feature_ring", 5, 0, Cap::kSegments), Cap::spoke("wire_feature_link", 2, 5, rows)});
+      {Cap::arc("wire_feature_ring", 5, 0, Cap::kSegments),
+       Cap::spoke("wire_feature_link", 2, 5, rows)});
   const Cap hemisphere(90);
   add("cap90-dart", hemisphere.mesh, {Cap::spoke("wire_dart_d", 0, 0, rows)});
   add("cap90-four-darts", hemisphere.mesh,
@@ -171,7 +172,8 @@ std::vector<GeneratedPiece> generatedPieces() {
   const GridPatch mild = saddle(0.002), strong = saddle(0.006);
   add("saddle-mild", mild.mesh, {});
   add("saddle-strong", strong.mesh, {});
-  add("saddle-cross", mild.mesh, {mild.alongRow("wire_feature_a", 8, 0, 18), mild.alongColumn("wire_feature_b", 9, 0, 16)});
+  add("saddle-cross", mild.mesh,
+      {mild.alongRow("wire_feature_a", 8, 0, 18), mild.alongColumn("wire_feature_b", 9, 0, 16)});
   add("saddle-dart", mild.mesh, {mild.alongRow("wire_dart_a", 8, 0, 6)}).overlapsItself = true;
   const GridPatch torus(24, 12, [](double u, double v) {
     const double around = 1.6 * u - 0.8, tube = 2 * v - 1;
@@ -187,11 +189,13 @@ std::vector<GeneratedPiece> generatedPieces() {
   add("bumpy", bumpy.mesh, {});
   add("bumpy-grid", bumpy.mesh,
       {bumpy.alongRow("wire_feature_a", 6, 0, 20), bumpy.alongRow("wire_feature_b", 13, 0, 20),
-       bumpy.alongColumn("wire_feature_c", 7, 0, 20), bumpy.alongColumn("wire_feature_d", 14, 0, 20)});
+       bumpy.alongColumn("wire_feature_c", 7, 0, 20),
+       bumpy.alongColumn("wire_feature_d", 14, 0, 20)});
   add("bumpy-all-kinds", bumpy.mesh,
-      {bumpy.alongRow("wire_feature_across", 4, 0, 20), bumpy.alongColumn("wire_feature_end", 10, 0, 3),
-       bumpy.alongColumn("wire_feature_floating", 5, 8, 16), bumpy.box("wire_feature_closed", 10, 9, 16, 16),
-       bumpy.alongRow("wire_dart_d", 18, 0, 5)})
+      {bumpy.alongRow("wire_feature_across", 4, 0, 20),
+       bumpy.alongColumn("wire_feature_end", 10, 0, 3),
+       bumpy.alongColumn("wire_feature_floating", 5, 8, 16),
+       bumpy.box("wire_feature_closed", 10, 9, 16, 16), bumpy.alongRow("wire_dart_d", 18, 0, 5)})
       .overlapsItself = true;
   const GridPatch sleeve(14, 36, [](double u, double v) {
     const double angle = 4 * u, bend = 0.9 * std::sin(2 * pi * v);
@@ -201,10 +205,12 @@ std::vector<GeneratedPiece> generatedPieces() {
   });
   add("s-sleeve", sleeve.mesh, {});
   add("s-sleeve-lines", sleeve.mesh,
-      {sleeve.alongColumn("wire_feature_a", 7, 0, 36), sleeve.alongRow("wire_feature_b", 18, 0, 14)});
+      {sleeve.alongColumn("wire_feature_a", 7, 0, 36),
+       sleeve.alongRow("wire_feature_b", 18, 0, 14)});
   const GridPatch spiral(90, 3, [](double u, double v) {
     const double angle = 8.5 * u;
-    return Eigen::Vector3d((80 + 30 * v) * std::cos(angle), (80 + 30 * v) * std::sin(angle), 160 * u);
+    return Eigen::Vector3d((80 + 30 * v) * std::cos(angle), (80 + 30 * v) * std::sin(angle),
+                           160 * u);
   });
   add("spiral", spiral.mesh, {}).overlapsItself = true;
   const GridPatch nose(16, 20, [](double u, double v) {
@@ -229,7 +235,8 @@ std::vector<GeneratedPiece> generatedPieces() {
     return Eigen::Vector3d(50 * u, 50 * v, 40 * u * (1 - u) * v * (1 - v));
   });
   add("over-braced-dome", dome.mesh, dome.everyEdge()).isFeasible = false;
-  const GridPatch plane(5, 5, [](double u, double v) { return Eigen::Vector3d(50 * u, 50 * v, 0); });
+  const GridPatch plane(5, 5,
+                        [](double u, double v) { return Eigen::Vector3d(50 * u, 50 * v, 0); });
   add("over-braced-plane", plane.mesh, plane.everyEdge());
   return pieces;
 }

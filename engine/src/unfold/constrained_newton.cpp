@@ -48,12 +48,25 @@ bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indef
     term->addDerivatives(state.q, indefinite, gradient_, matrix_);
   lengths_->addCurvature(state.lambda, indefinite, kPenalty, matrix_);
   // Moving and turning cost nothing; springs hold them without changing the solution.
+  const bool isTied = !matrix_.pattern().ties().empty();
+  if (isTied) matrix_.fillAxis();
   for (const auto& [first, second] : holds_) {
+    if (isTied) {
+      matrix_.addDiagonal(first, 0, 0, 1);
+      continue;
+    }
     const Eigen::Vector2d line = (at(state.q, second) - at(state.q, first)).normalized();
     matrix_.addDiagonal(first, 1, 0, 1);
     matrix_.addDiagonal(second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
   }
   return factor_->factor(matrix_);
+}
+
+void ConstrainedNewton::solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x) {
+  const MirrorTies& ties = matrix_.pattern().ties();
+  if (ties.empty()) return factor_->solve(right, x);
+  factor_->solve(ties.reduce(right), x);
+  x = ties.expand(x);
 }
 
 // (H + penalty J^T J) d = -(g + J^T (lambda + penalty c)) fulfils H d + g + J^T lambda' = 0 with
@@ -65,7 +78,7 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::Vector
   Eigen::VectorXd right = gradient_;
   lengths_->addTransposeTimes(lambda + kPenalty * residual, right);
   right = -right;
-  factor_->solve(right, d);
+  solveTied(right, d);
   Plane e;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxRepeats; ++i) {
@@ -76,7 +89,7 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::Vector
     before = size;
     right.setZero();
     lengths_->addTransposeTimes(-kPenalty * r, right);
-    factor_->solve(right, e);
+    solveTied(right, e);
     d += e;
   }
 }
@@ -89,10 +102,10 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
     Eigen::VectorXd right = Eigen::VectorXd::Zero(gradient_.size());
     lengths_->addTransposeTimes(-kPenalty * r, right);
     if (i == 0) {
-      factor_->solve(right, s);
+      solveTied(right, s);
     } else {
       Plane e;
-      factor_->solve(right, e);
+      solveTied(right, e);
       s += e;
     }
     r = lengths_->jacobianTimes(s) + residual;

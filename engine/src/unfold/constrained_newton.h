@@ -36,7 +36,7 @@ enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
 class ConstrainedNewton {
  public:
   /// @param holds two vertices that fix place and direction of the plane; a pair for each part
-  ///   that can move by itself.
+  ///   that can move by itself. With ties the first of a pair holds the height, the rest is held.
   ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
                     const BlockPattern& pattern, SparseFactor& factor,
                     std::vector<std::pair<std::uint32_t, std::uint32_t>> holds, double areaScale);
@@ -57,6 +57,7 @@ class ConstrainedNewton {
  private:
   [[nodiscard]] double energy(const Plane& q) const;
   [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double indefinite);
+  void solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x);
   void solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda, Plane& d);
   [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
 

@@ -8,9 +8,9 @@
 
 namespace toile::unfolding {
 
-/// Fills the cloth in between wires whose places are given: from a plane without folds the wires are
-/// pulled to their places by springs that get stiffer, and the cloth follows with the least strain
-/// and without folding. Where no such plane exists the wires stop short of their places.
+/// Fills the cloth in between wires whose places are given: from a plane without folds the wires
+/// are pulled to their places by springs that get stiffer, and the cloth follows with the least
+/// strain and without folding. Where no such plane exists the wires stop short of their places.
 class InteriorFill {
  public:
   static constexpr int kRounds = 5;
@@ -22,7 +22,9 @@ class InteriorFill {
   [[nodiscard]] Result<void> pullTo(Plane& q, const std::vector<std::uint32_t>& vertices,
                                     const Plane& places, int round, const Progress* progress);
   /// Strain energy per area; infinite where a triangle is flipped.
-  [[nodiscard]] double meanEnergy(const Plane& q) const { return strain_.energy(q) / problem_->area; }
+  [[nodiscard]] double meanEnergy(const Plane& q) const {
+    return strain_.energy(q) / problem_->area;
+  }
 
  private:
   const Problem* problem_;

@@ -6,6 +6,7 @@
 
 #include "unfold/check.h"
 #include "unfold/start.h"
+#include "unfold/symmetry.h"
 
 namespace toile::unfolding {
 namespace {
@@ -41,7 +42,7 @@ double highestCompression(const Problem& problem, const Eigen::VectorXd& lambda)
 
 }  // namespace
 
-BlockPattern couplingsOf(const Problem& problem) {
+BlockPattern couplingsOf(const Problem& problem, MirrorTies ties) {
   std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
   pairs.reserve(3 * problem.triangles.size() + problem.corners.size() + problem.wireEdges.size());
   for (const RestTriangle& t : problem.triangles) {
@@ -49,7 +50,8 @@ BlockPattern couplingsOf(const Problem& problem) {
   }
   for (const Corner& c : problem.corners) pairs.emplace_back(c.before, c.after);
   for (const WireEdge& edge : problem.wireEdges) pairs.emplace_back(edge.a, edge.b);
-  return {problem.vertexCount, pairs};
+  return ties.empty() ? BlockPattern(problem.vertexCount, pairs)
+                      : BlockPattern(std::move(ties), pairs);
 }
 
 Result<Plane> unfoldedStart(const Problem& problem, const std::vector<Eigen::Vector3d>& positions,
@@ -66,10 +68,13 @@ Result<Plane> unfoldedStart(const Problem& problem, const std::vector<Eigen::Vec
   return *std::move(start);
 }
 
-LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options)
+LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options,
+                         const PieceSymmetry* symmetry)
     : problem_(&problem),
       options_(options),
-      pattern_(couplingsOf(problem)),
+      symmetry_(symmetry),
+      pattern_(couplingsOf(
+          problem, symmetry != nullptr ? tiesOf(*symmetry, problem.vertexCount) : MirrorTies{})),
       factor_(pattern_),
       strain_(problem, pattern_, options.areaWeight),
       lengths_(problem, pattern_) {}
@@ -77,7 +82,9 @@ LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options)
 Result<void> LeastStrain::start(const Piece& piece) {
   const std::vector<Eigen::Vector3d>& positions = piece.mesh->positions();
   const auto hold = farBoundaryPair(*problem_, positions);
-  Result<Plane> q = unfoldedStart(*problem_, positions, hold, pattern_, factor_);
+  Result<Plane> q = symmetry_ != nullptr
+                        ? symmetricStart(*problem_, positions, hold, *symmetry_)
+                        : unfoldedStart(*problem_, positions, hold, pattern_, factor_);
   if (!q) return q.error();
   bending_.emplace(*problem_, pattern_, cornerAngles(*problem_, *q));
   newton_.emplace(std::vector<EnergyTerm*>{&strain_, &*bending_}, lengths_, pattern_, factor_,

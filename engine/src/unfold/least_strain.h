@@ -3,6 +3,7 @@
 
 #include <optional>
 
+#include "toile/unfold/symmetrise.h"
 #include "unfold/solution.h"
 #include "unfold/sparse_factor.h"
 #include "unfold/strain_energy.h"
@@ -11,7 +12,8 @@
 namespace toile::unfolding {
 
 /// Which nodes of the plane any objective couples.
-[[nodiscard]] BlockPattern couplingsOf(const Problem& problem);
+/// @param ties of the vertices, empty for none.
+[[nodiscard]] BlockPattern couplingsOf(const Problem& problem, MirrorTies ties = {});
 
 /// A placement without folds to begin with: conformal, or on a circle where that folds.
 /// @return NotConverged when neither is without folds.
@@ -25,7 +27,9 @@ namespace toile::unfolding {
 class LeastStrain {
  public:
   /// @param problem stays where it is; its numbers may change between calls, its connectivity not.
-  LeastStrain(const Problem& problem, const UnfoldOptions& options);
+  /// @param symmetry vertices that shall be mirror images of each other; null for none.
+  LeastStrain(const Problem& problem, const UnfoldOptions& options,
+              const PieceSymmetry* symmetry = nullptr);
 
   /// The full answer; no history.
   [[nodiscard]] Result<Solution> solve(const Piece& piece, Progress* progress);
@@ -40,6 +44,7 @@ class LeastStrain {
 
   const Problem* problem_;
   UnfoldOptions options_;
+  const PieceSymmetry* symmetry_;
   BlockPattern pattern_;
   SparseFactor factor_;
   StrainEnergy strain_;

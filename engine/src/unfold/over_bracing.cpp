@@ -37,7 +37,8 @@ class PebbleGame {
     (void)reach(b, a);
     std::vector<std::uint32_t> inside;
     for (std::uint32_t joint = 0; joint < seen_.size(); ++joint) {
-      if (seen_[joint] == stamp_) inside.insert(inside.end(), covered_[joint].begin(), covered_[joint].end());
+      if (seen_[joint] == stamp_)
+        inside.insert(inside.end(), covered_[joint].begin(), covered_[joint].end());
     }
     std::sort(inside.begin(), inside.end());
     return inside;

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <new>
 
+#include "toile/unfold/symmetrise.h"
 #include "unfold/check.h"
 #include "unfold/least_strain.h"
 #include "unfold/wire_warping.h"
@@ -74,19 +75,29 @@ bool sameConnectivity(const Problem& a, const Problem& b) {
                     sameEdge);
 }
 
-}  // namespace
-
-Result<FlatPiece> unfold(const Piece& piece, const UnfoldOptions& options, Progress* progress) try {
+Result<FlatPiece> unfoldOne(const Piece& piece, const PieceSymmetry* symmetry,
+                            const UnfoldOptions& options, Progress* progress) try {
   if (Result<void> valid = checkOptions(options); !valid) return valid.error();
   Result<Problem> problem = makeProblem(piece);
   if (!problem) return problem.error();
   Result<Solution> solution = options.objective == UnfoldObjective::WireWarping
                                   ? warpWires(piece, *problem, options, progress)
-                                  : LeastStrain(*problem, options).solve(piece, progress);
+                                  : LeastStrain(*problem, options, symmetry).solve(piece, progress);
   if (!solution) return solution.error();
   return flatPiece(piece, *problem, options, *std::move(solution));
 } catch (const std::bad_alloc&) {
   return outOfMemory();
+}
+
+}  // namespace
+
+Result<FlatPiece> unfold(const Piece& piece, const UnfoldOptions& options, Progress* progress) {
+  return unfoldOne(piece, nullptr, options, progress);
+}
+
+Result<FlatPiece> unfold(const SymmetricPiece& piece, const UnfoldOptions& options,
+                         Progress* progress) {
+  return unfoldOne(piece.piece, &piece.symmetry, options, progress);
 }
 
 struct UnfoldPreview::State {

@@ -123,15 +123,14 @@ class Warper {
     // So that the matrix has numbers of about 1 and the lengths' penalty stands out of it.
     bending.setStiffness(scale_);
     bending.useSecondDerivatives();
-    ConstrainedNewton newton({&bending}, lengths_, pattern_, factor_, wires_.holds,
-                             1e-3 * scale_);
+    ConstrainedNewton newton({&bending}, lengths_, pattern_, factor_, wires_.holds, 1e-3 * scale_);
     Warped warped;
     warped.state.q = q;
     warped.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.count()));
     for (std::uint32_t push = 0;; ++push) {
       const NewtonEnd end = newton.minimise(
-          warped.state,
-          {.maxSteps = kMaxWarpSteps, .lengths = 1e-6, .decrease = kWarpDecrease}, progress);
+          warped.state, {.maxSteps = kMaxWarpSteps, .lengths = 1e-6, .decrease = kWarpDecrease},
+          progress);
       if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
       warped.finished = end == NewtonEnd::Converged;
       warped.exact = lengths_.worst(lengths_.residual(warped.state.q)) < 1e-3 &&
@@ -139,8 +138,7 @@ class Warper {
       warped.stable = warped.exact && newton.isStableAt(warped.state);
       if (!warped.finished || warped.stable || push == kMaxPushes) break;
       // A saddle, as symmetric data gives it: there is a lower place beside it.
-      warped.state.q =
-          pushed(warped.state.q, kPush * wires_.problem.meanWireEdge, push + 1);
+      warped.state.q = pushed(warped.state.q, kPush * wires_.problem.meanWireEdge, push + 1);
       bending.moveTo(warped.state.q);
     }
     warped.j = bending.energy(warped.state.q) / scale_;
@@ -201,8 +199,8 @@ Plane fitted(const Wires& wires, const Plane& wanted, const Plane& plane) {
 
 }  // namespace
 
-Result<Solution> warpWires(const Piece& piece, const Problem& problem,
-                           const UnfoldOptions& options, Progress* progress) {
+Result<Solution> warpWires(const Piece& piece, const Problem& problem, const UnfoldOptions& options,
+                           Progress* progress) {
   const std::vector<Eigen::Vector3d>& positions = piece.mesh->positions();
   const BlockPattern pattern = couplingsOf(problem);
   SparseFactor factor(pattern);

@@ -10,7 +10,8 @@ namespace toile::unfolding {
 ///
 /// Positions are the unknowns, not angles: the same minimum, and no network of wires needs a case
 /// of its own (holes, lines that float or end in the cloth, junctions). Several starts; of those
-/// whose wires do not cross the lowest J counts. Parts of the wires that nothing joins lie where the cloth strains the least.
+/// whose wires do not cross the lowest J counts. Parts of the wires that nothing joins lie where
+/// the cloth strains the least.
 /// @see Wang, "WireWarping: A Fast Surface Flattening Approach with Length-preserved Feature
 ///   Curves", Computer-Aided Design 40(3), 2008.
 [[nodiscard]] Result<Solution> warpWires(const Piece& piece, const Problem& problem,

@@ -101,8 +101,7 @@ double distanceFromOptimality(const Piece& piece, const FlatPiece& flat) {
       a(i, first + 1) = place.x();
       a(i, first + 2) = place.y();
     };
-    addAffine(static_cast<Eigen::Index>(
-        3 * patch[problem.sectorCorners[corner.sectorBegin] / 3]));
+    addAffine(static_cast<Eigen::Index>(3 * patch[problem.sectorCorners[corner.sectorBegin] / 3]));
     if (const auto hole = holeOf.find(corner.at); hole != holeOf.end()) addAffine(hole->second);
     const auto vertex = inner.find(corner.at);
     if (vertex != inner.end()) a(i, vertex->second) = 1;
@@ -240,8 +239,19 @@ TEST(OverBracing, CountsAsLamanDoes) {
   ASSERT_EQ(square.size(), 1U);
   EXPECT_EQ(square[0].size(), 6U);
   // Two such squares joined by one bar: two sets, the joining bar in neither.
-  const auto two = braced(8, {{0, 1}, {1, 2}, {2, 3}, {3, 0}, {0, 2}, {1, 3}, {3, 4},
-                              {4, 5}, {5, 6}, {6, 7}, {7, 4}, {4, 6}, {5, 7}});
+  const auto two = braced(8, {{0, 1},
+                              {1, 2},
+                              {2, 3},
+                              {3, 0},
+                              {0, 2},
+                              {1, 3},
+                              {3, 4},
+                              {4, 5},
+                              {5, 6},
+                              {6, 7},
+                              {7, 4},
+                              {4, 6},
+                              {5, 7}});
   ASSERT_EQ(two.size(), 2U);
   for (const auto& part : two) {
     EXPECT_EQ(part.size(), 6U);
