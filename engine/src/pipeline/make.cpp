@@ -43,6 +43,7 @@ ContentHash cacheKey(const Piece& piece, const UnfoldOptions& options) {
       .add(options.areaWeight)
       .add(options.wireStiffness)
       .add(options.maxSteps)
+      .add(options.keepSymmetry)
       .finish();
 }
 

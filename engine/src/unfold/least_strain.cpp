@@ -83,7 +83,7 @@ Result<void> LeastStrain::start(const Piece& piece) {
   const std::vector<Eigen::Vector3d>& positions = piece.mesh->positions();
   const auto hold = farBoundaryPair(*problem_, positions);
   Result<Plane> q = symmetry_ != nullptr
-                        ? symmetricStart(*problem_, positions, hold, *symmetry_)
+                        ? symmetricStart(*problem_, positions, *symmetry_, pattern_, factor_)
                         : unfoldedStart(*problem_, positions, hold, pattern_, factor_);
   if (!q) return q.error();
   bending_.emplace(*problem_, pattern_, cornerAngles(*problem_, *q));

@@ -7,20 +7,28 @@
 #include <cmath>
 #include <map>
 
+#include "toile/mesh/surface_index.h"
 #include "unfold/problem.h"
+#include "unfold/symmetry.h"
 
 namespace toile {
 namespace {
 
-using unfolding::Problem;
 using Eigen::Vector3d;
+using unfolding::Problem;
 
-/// An axis or a point of the other side this near to a vertex, as a share of the edges there, is the
-/// vertex: no slivers.
-constexpr double kSameVertex = 0.1;
+/// An axis or a point of the other side this near to a vertex, as a share of the edges there, is
+/// the vertex: no slivers.
+constexpr double kSameVertex = 0.05;
 /// Points of the outline that are compared with it.
 constexpr std::size_t kSamples = 160;
+constexpr std::size_t kInsideSamples = 64;
 constexpr int kPlaneRounds = 8;
+/// Symmetric to rounding, as a share of the size or of a length.
+constexpr double kExact = 1e-11;
+/// How far the surface inside may be from its mirror image then, as a share of the size: it may be
+/// meshed in another way.
+constexpr double kInside = 0.005;
 /// A later plane must be this much better than one found before it.
 constexpr double kBetter = 0.9;
 
@@ -65,7 +73,9 @@ Mirror refined(const std::vector<Vector3d>& outline, Mirror mirror) {
       middle += 0.5 * (p + q);
       count += 1;
     }
+    const bool improves = mirror.distance < kBetter * best.distance;
     if (mirror.distance < best.distance) best = mirror;
+    if (!improves) break;
     const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
     mirror.normal = solver.eigenvectors().col(2);
     mirror.offset = mirror.normal.dot(middle / count);
@@ -73,7 +83,9 @@ Mirror refined(const std::vector<Vector3d>& outline, Mirror mirror) {
   return best;
 }
 
-Mirror findMirror(const std::vector<Vector3d>& outline) {
+/// Planes in which an outline may be symmetric: through its centre, across an axis of space or of
+/// its own inertia.
+std::vector<Mirror> candidates(const std::vector<Vector3d>& outline) {
   Vector3d centre = Vector3d::Zero();
   double length = 0;
   Eigen::Matrix3d spread = Eigen::Matrix3d::Zero();
@@ -92,14 +104,38 @@ Mirror findMirror(const std::vector<Vector3d>& outline) {
     if (pass == 0) centre /= length;
   }
   const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> solver(spread);
-  std::vector<Vector3d> normals = {Vector3d::UnitX(), Vector3d::UnitY(), Vector3d::UnitZ()};
-  for (int axis = 2; axis >= 0; --axis) normals.emplace_back(solver.eigenvectors().col(axis));
+  std::vector<Mirror> mirrors;
+  for (int axis = 0; axis < 3; ++axis) {
+    mirrors.push_back({Vector3d::Unit(axis), centre[axis], 0});
+  }
+  for (int axis = 2; axis >= 0; --axis) {
+    const Vector3d normal = solver.eigenvectors().col(axis);
+    mirrors.push_back({normal, normal.dot(centre), 0});
+  }
+  return mirrors;
+}
+
+Mirror findMirror(const std::vector<Vector3d>& outline) {
   std::optional<Mirror> best;
-  for (const Vector3d& normal : normals) {
-    const Mirror mirror = refined(outline, {normal, normal.dot(centre), 0});
+  for (const Mirror& candidate : candidates(outline)) {
+    const Mirror mirror = refined(outline, candidate);
     if (!best || mirror.distance < kBetter * best->distance) best = mirror;
   }
   return *best;
+}
+
+/// The first candidate in which the outline is its own mirror image to rounding.
+std::optional<Mirror> findExactMirror(const std::vector<Vector3d>& outline, double tolerance) {
+  const std::size_t step = 1 + outline.size() / kSamples;
+  for (const Mirror& mirror : candidates(outline)) {
+    bool isExact = true;
+    for (std::size_t i = 0; isExact && i < outline.size(); i += step) {
+      const Vector3d image = outline[i] - 2 * mirror.side(outline[i]) * mirror.normal;
+      isExact = (image - nearestOnOutline(outline, image)).norm() <= tolerance;
+    }
+    if (isExact) return mirror;
+  }
+  return std::nullopt;
 }
 
 /// A point of the outline, old or to be made.
@@ -112,7 +148,7 @@ struct OutlinePoint {
 class Symmetriser {
  public:
   Symmetriser(const Piece& piece, const Problem& problem)
-      : piece_(piece), loop_(problem.loops[problem.outerLoop]) {
+      : piece_(piece), problem_(problem), loop_(problem.loops[problem.outerLoop]) {
     std::map<std::pair<std::uint32_t, std::uint32_t>, double> targets;
     for (const auto& edge : problem.wireEdges) {
       targets[std::minmax(edge.a, edge.b)] = edge.target;
@@ -123,24 +159,33 @@ class Symmetriser {
     }
   }
 
-  std::optional<SymmetricPiece> run(double greatestDistance) {
+  std::optional<SymmetricPiece> run(double tolerance) {
     const Mirror mirror = findMirror(outline_);
-    if (!(mirror.distance <= greatestDistance)) return std::nullopt;
-    const std::vector<OutlinePoint> ends = axisPoints(mirror);
-    if (ends.size() != 2) return std::nullopt;
-    // Forward from the first end to the second, and backward.
-    std::vector<OutlinePoint> forward = half(ends[0], ends[1]);
-    std::vector<OutlinePoint> backward = half(ends[1], ends[0]);
-    std::reverse(backward.begin(), backward.end());
-    for (OutlinePoint& p : backward) p.at = 1 - p.at;
-    if (!mergePoints(forward, backward)) return std::nullopt;
-
+    if (!(mirror.distance <= tolerance) || !insideIsSymmetric(mirror, tolerance)) {
+      return std::nullopt;
+    }
+    std::vector<OutlinePoint> forward, backward;
+    if (!matchHalves(mirror, forward, backward)) return std::nullopt;
     result_.asymmetry = mirror.distance;
     result_.piece = piece_;
     makePoints(forward, backward);
-    if (!splitFaces()) return std::nullopt;
-    if (!rewriteWires(forward, backward)) return std::nullopt;
+    if (!splitFaces() || !rewriteWires(forward, backward)) return std::nullopt;
     return std::move(result_);
+  }
+
+  std::optional<PieceSymmetry> runExactly() {
+    const double size = std::sqrt(problem_.area);
+    const std::optional<Mirror> mirror = findExactMirror(outline_, kExact * size);
+    if (!mirror) return std::nullopt;
+    std::vector<OutlinePoint> forward, backward;
+    if (!matchHalves(*mirror, forward, backward)) return std::nullopt;
+    makePoints(forward, backward);
+    if (result_.addedVertices > 0) return std::nullopt;
+    (void)rewriteWires(forward, backward);
+    if (result_.maxLengthChange > kExact || !insideIsSymmetric(*mirror, kInside * size)) {
+      return std::nullopt;
+    }
+    return std::move(result_.symmetry);
   }
 
  private:
@@ -150,6 +195,55 @@ class Symmetriser {
     if (t < kSameVertex) return {edge, 0, 0};
     if (t > 1 - kSameVertex) return {after(edge), 0, 0};
     return {edge, t, 0};
+  }
+
+  /// From one point on the axis to the other, forward and backward, with the same points.
+  [[nodiscard]] bool matchHalves(const Mirror& mirror, std::vector<OutlinePoint>& forward,
+                                 std::vector<OutlinePoint>& backward) const {
+    const std::vector<OutlinePoint> ends = axisPoints(mirror);
+    if (ends.size() != 2) return false;
+    forward = half(ends[0], ends[1]);
+    backward = half(ends[1], ends[0]);
+    std::reverse(backward.begin(), backward.end());
+    for (OutlinePoint& p : backward) p.at = 1 - p.at;
+    return mergePoints(forward, backward);
+  }
+
+  /// Whether inner wires and the surface are their own mirror images too.
+  [[nodiscard]] bool insideIsSymmetric(const Mirror& mirror, double tolerance) const {
+    const Mesh& mesh = *piece_.mesh;
+    const auto imageOf = [&](std::uint32_t v) -> Vector3d {
+      const Vector3d& p = mesh.position(VertexId(v));
+      return p - 2 * mirror.side(p) * mirror.normal;
+    };
+    std::vector<char> isOuter(mesh.vertexCount(), 0);
+    for (const std::uint32_t v : loop_) isOuter[v] = 1;
+    std::vector<std::pair<Vector3d, Vector3d>> segments;
+    std::vector<std::uint32_t> ends;
+    for (const auto& edge : problem_.wireEdges) {
+      if (!edge.inner && isOuter[edge.a] != 0) continue;
+      segments.emplace_back(mesh.position(VertexId(edge.a)), mesh.position(VertexId(edge.b)));
+      ends.push_back(edge.a);
+      ends.push_back(edge.b);
+    }
+    for (const std::uint32_t v : ends) {
+      const Vector3d image = imageOf(v);
+      const bool isNear = std::any_of(segments.begin(), segments.end(), [&](const auto& segment) {
+        const Vector3d along = segment.second - segment.first;
+        const double t =
+            std::clamp(along.dot(image - segment.first) / along.squaredNorm(), 0.0, 1.0);
+        return (segment.first + t * along - image).norm() <= tolerance;
+      });
+      if (!isNear) return false;
+    }
+    const SurfaceIndex index(piece_.mesh);
+    const std::size_t step = 1 + mesh.vertexCount() / kInsideSamples;
+    for (std::size_t v = 0; v < mesh.vertexCount(); v += step) {
+      if (index.closestPoint(imageOf(static_cast<std::uint32_t>(v))).distance > tolerance) {
+        return false;
+      }
+    }
+    return true;
   }
 
   [[nodiscard]] std::vector<OutlinePoint> axisPoints(const Mirror& mirror) const {
@@ -192,8 +286,10 @@ class Symmetriser {
     std::vector<OutlinePoint> mergedA{a.front()}, mergedB{b.front()};
     std::size_t i = 1, j = 1;
     while (i + 1 < a.size() || j + 1 < b.size()) {
-      const double nearA = kSameVertex * std::min(a[i].at - a[i - 1].at, i + 1 < a.size() ? a[i + 1].at - a[i].at : 1);
-      const double nearB = kSameVertex * std::min(b[j].at - b[j - 1].at, j + 1 < b.size() ? b[j + 1].at - b[j].at : 1);
+      const double nearA = kSameVertex * std::min(a[i].at - a[i - 1].at,
+                                                  i + 1 < a.size() ? a[i + 1].at - a[i].at : 1);
+      const double nearB = kSameVertex * std::min(b[j].at - b[j - 1].at,
+                                                  j + 1 < b.size() ? b[j + 1].at - b[j].at : 1);
       const double gap = a[i].at - b[j].at;
       if (i + 1 < a.size() && j + 1 < b.size() && std::abs(gap) < std::min(nearA, nearB)) {
         mergedA.push_back(a[i++]);
@@ -351,6 +447,7 @@ class Symmetriser {
   }
 
   const Piece& piece_;
+  const Problem& problem_;
   const std::vector<std::uint32_t>& loop_;
   std::vector<double> target_;  ///< per edge of the loop
   std::vector<Vector3d> outline_;
@@ -360,6 +457,14 @@ class Symmetriser {
 };
 
 }  // namespace
+
+namespace unfolding {
+
+std::optional<PieceSymmetry> findExactSymmetry(const Piece& piece, const Problem& problem) {
+  return Symmetriser(piece, problem).runExactly();
+}
+
+}  // namespace unfolding
 
 std::optional<SymmetricPiece> symmetrise(const Piece& piece, double tolerance) {
   const Result<Problem> problem = unfolding::makeProblem(piece);

@@ -3,14 +3,13 @@
 
 #include <cmath>
 
-#include "unfold/least_strain.h"
 #include "unfold/start.h"
 
 namespace toile::unfolding {
 namespace {
 
-/// Turns the plane so that the axis is x = 0 at best, then moves each pair to the mean of itself and
-/// its mirror image.
+/// Turns the plane so that the axis is x = 0 at best, then moves each pair to the mean of itself
+/// and its mirror image.
 void makeSymmetric(const PieceSymmetry& symmetry, Plane& q) {
   // A pair's difference is across the axis, the sum of two vertices and their images along it.
   Eigen::Vector2d across = Eigen::Vector2d::Zero();
@@ -21,8 +20,7 @@ void makeSymmetric(const PieceSymmetry& symmetry, Plane& q) {
   across.normalize();
   for (Eigen::Index i = 0; i < q.size(); i += 2) {
     const Eigen::Vector2d p = q.segment<2>(i);
-    q.segment<2>(i) =
-        Eigen::Vector2d(across.dot(p), across.x() * p.y() - across.y() * p.x());
+    q.segment<2>(i) = Eigen::Vector2d(across.dot(p), across.x() * p.y() - across.y() * p.x());
   }
   double middle = 0;
   for (const auto& [right, left] : symmetry.pairs) {
@@ -66,12 +64,13 @@ MirrorTies tiesOf(const PieceSymmetry& symmetry, std::size_t vertexCount) {
 }
 
 Result<Plane> symmetricStart(const Problem& problem, const std::vector<Eigen::Vector3d>& positions,
-                             std::pair<std::uint32_t, std::uint32_t> hold,
-                             const PieceSymmetry& symmetry) {
-  const BlockPattern pattern = couplingsOf(problem);
-  SparseFactor factor(pattern);
-  std::optional<Plane> start = conformalStart(problem, positions, hold, pattern, factor);
-  if (start) makeSymmetric(symmetry, *start);
+                             const PieceSymmetry& symmetry, const BlockPattern& pattern,
+                             SparseFactor& factor) {
+  const auto axis = [&](std::size_t i) {
+    return static_cast<std::uint32_t>(symmetry.axis[i].index());
+  };
+  std::optional<Plane> start =
+      conformalStart(problem, positions, {axis(0), axis(1)}, pattern, factor);
   if (!start || flippedCount(problem, *start) > 0) {
     start = circleStart(problem);
     if (start) makeSymmetric(symmetry, *start);

@@ -10,6 +10,7 @@
 #include "toile/unfold/symmetrise.h"
 #include "unfold/check.h"
 #include "unfold/least_strain.h"
+#include "unfold/symmetry.h"
 #include "unfold/wire_warping.h"
 
 namespace toile {
@@ -40,9 +41,9 @@ Error outOfMemory() {
 }
 
 FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOptions& options,
-                    Solution solution) {
+                    bool isSymmetric, Solution solution) {
   Plane& q = solution.state.q;
-  place(problem, piece.mesh->positions(), q);
+  place(problem, piece.mesh->positions(), isSymmetric, q);
   solution.crossings = findCrossings(problem, q);
   FlatPiece flat;
   flat.position = VertexData<Eigen::Vector2d>(problem.vertexCount, Eigen::Vector2d::Zero());
@@ -80,11 +81,18 @@ Result<FlatPiece> unfoldOne(const Piece& piece, const PieceSymmetry* symmetry,
   if (Result<void> valid = checkOptions(options); !valid) return valid.error();
   Result<Problem> problem = makeProblem(piece);
   if (!problem) return problem.error();
+  std::optional<PieceSymmetry> found;
+  if (symmetry == nullptr && options.keepSymmetry &&
+      options.objective == UnfoldObjective::LeastStrain) {
+    found = findExactSymmetry(piece, *problem);
+    if (found) symmetry = &*found;
+  }
   Result<Solution> solution = options.objective == UnfoldObjective::WireWarping
                                   ? warpWires(piece, *problem, options, progress)
                                   : LeastStrain(*problem, options, symmetry).solve(piece, progress);
   if (!solution) return solution.error();
-  return flatPiece(piece, *problem, options, *std::move(solution));
+  const bool isSymmetric = symmetry != nullptr && options.objective == UnfoldObjective::LeastStrain;
+  return flatPiece(piece, *problem, options, isSymmetric, *std::move(solution));
 } catch (const std::bad_alloc&) {
   return outOfMemory();
 }
@@ -127,7 +135,7 @@ Result<FlatPiece> UnfoldPreview::update(const Piece& piece, Progress* progress) 
       state.solver.reset();
       return solution.error();
     }
-    return flatPiece(piece, state.problem, state.options, *std::move(solution));
+    return flatPiece(piece, state.problem, state.options, false, *std::move(solution));
   }
   return Error{ErrorCode::NotConverged, "no preview", {}};
 } catch (const std::bad_alloc&) {

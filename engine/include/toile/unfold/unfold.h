@@ -34,6 +34,9 @@ struct UnfoldOptions {
   /// crinkle.
   double wireStiffness = 0.05;  ///< 0..10
   int maxSteps = 100;           ///< of the solver
+  /// A piece that is its own mirror image to rounding unfolds to one (least strain); symmetrise()
+  /// is for pieces that are so nearly.
+  bool keepSymmetry = true;
 };
 
 /// How far one face is from its shape on the body.
