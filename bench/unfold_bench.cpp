@@ -1,12 +1,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Unfolding the shared patches, each beside two yardsticks in the same run: CGAL's LSCM of the same
-// piece and one factorisation of its Laplacian.
+// Unfolding the shared patches, each beside two yardsticks in the same run: CGAL's LSCM and ARAP of
+// the same piece and one factorisation of its Laplacian.
 #include <benchmark/benchmark.h>
 
+#include <cmath>
 #include <map>
 #include <string>
+#include <string_view>
 
-#include "cgal_lscm.h"
+#include "cgal_parameterization.h"
 #include "support/yardstick.h"
 #include "toile/unfold/unfold.h"
 
@@ -91,11 +93,52 @@ void cgalPatch(benchmark::State& state, const std::string& name) {
   for (auto _ : state) benchmark::DoNotOptimize(cgalLscm(*piece->mesh));
 }
 
+void arapPatch(benchmark::State& state, const std::string& name) {
+  const Piece* piece = patch(name);
+  if (piece == nullptr) return state.SkipWithError("no test data; set TOILE_TEST_DATA");
+  for (auto _ : state) benchmark::DoNotOptimize(cgalArap(*piece->mesh));
+}
+
 void factorPatch(benchmark::State& state, const std::string& name) {
   const Piece* piece = patch(name);
   if (piece == nullptr) return state.SkipWithError("no test data; set TOILE_TEST_DATA");
   factorise(state, *piece->mesh);
 }
+
+/// Growth of the cost: a bent sheet of 2 n^2 triangles.
+void unfoldSheet(benchmark::State& state) {
+  const auto n = static_cast<int>(std::sqrt(static_cast<double>(state.range(0)) / 2));
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Triangle> triangles;
+  for (int j = 0; j <= n; ++j) {
+    for (int i = 0; i <= n; ++i) {
+      const double u = static_cast<double>(i) / n, v = static_cast<double>(j) / n;
+      positions.emplace_back(200 * u, 300 * v, 25 * std::sin(3 * u) * std::cos(2.5 * v));
+    }
+  }
+  const auto at = [n](int i, int j) { return VertexId(static_cast<std::size_t>(j * (n + 1) + i)); };
+  for (int j = 0; j < n; ++j) {
+    for (int i = 0; i < n; ++i) {
+      triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+      triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+    }
+  }
+  const Piece piece = *makePiece("sheet", *makeMesh(positions, triangles), {});
+  FlatPiece flat;
+  for (auto _ : state) flat = *unfold(piece);
+  state.counters["steps"] = flat.steps;
+  state.SetComplexityN(state.range(0));
+}
+BENCHMARK(unfoldSheet)
+    ->Name("UnfoldSheet")
+    ->Arg(1000)
+    ->Arg(4000)
+    ->Arg(16000)
+    ->Arg(64000)
+    ->Arg(100000)
+    ->Arg(400000)
+    ->Complexity()
+    ->Unit(benchmark::kMillisecond);
 
 const int kRegistered = [] {
   for (const char* name :
@@ -110,6 +153,7 @@ const int kRegistered = [] {
     add("Preview", previewPatch);
     add("WarmPreview", warmPatch);
     add("CgalLscm", cgalPatch);
+    if (!std::string_view(name).ends_with("100k")) add("CgalArap", arapPatch);
     add("Factorisation", factorPatch);
   }
   return 0;
