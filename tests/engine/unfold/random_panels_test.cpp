@@ -47,8 +47,8 @@ void clip(Surface& surface, const Vector3d& normal, double offset) {
       const double t = side[a] / (side[a] - side[b]);
       const std::size_t near = t < 0.2 ? a : t > 0.8 ? b : face.size();
       if (near != a && near != b) continue;
-      surface.positions[near] += (t < 0.2 ? t : 1 - t) *
-                                 (surface.positions[near == a ? b : a] - surface.positions[near]);
+      surface.positions[near] +=
+          (t < 0.2 ? t : 1 - t) * (surface.positions[near == a ? b : a] - surface.positions[near]);
       side[near] = 0;
     }
   }
@@ -175,11 +175,12 @@ TEST(RandomPanels, OfAllBodiesLieFlatExactly) {
                                    [](const Finding& f) { return f.code == "crossings"; });
     EXPECT_EQ(flat->check.crossings > 0, tells);
     if (asked != nullptr) {
-      std::printf("%-28s %5zu faces, area error mean %6.2f %% max %7.1f %%, turn %5.1f deg, length "
-                  "%.0e, %zu crossings, %d steps\n",
-                  body.c_str(), panel->faceCount(), 100 * flat->meanAreaError,
-                  100 * flat->maxAreaError, flat->check.maxTurnError * 180 / std::numbers::pi,
-                  flat->check.maxLengthError, flat->check.crossings, flat->steps);
+      std::printf(
+          "%-28s %5zu faces, area error mean %6.2f %% max %7.1f %%, turn %5.1f deg, length "
+          "%.0e, %zu crossings, %d steps\n",
+          body.c_str(), panel->faceCount(), 100 * flat->meanAreaError, 100 * flat->maxAreaError,
+          flat->check.maxTurnError * 180 / std::numbers::pi, flat->check.maxLengthError,
+          flat->check.crossings, flat->steps);
     }
   }
   EXPECT_EQ(made, trials);
