@@ -49,6 +49,17 @@ TEST_F(UnfoldCommand, TellsProgramsTheCheck) {
   EXPECT_LE(json["check"]["maxLengthError"].get<double>(), 1e-12);
 }
 
+TEST_F(UnfoldCommand, WarpsTheWiresOnWish) {
+  const ProgramResult strained = run({"--units", "mm", "--json"});
+  const ProgramResult warped =
+      run({"--units", "mm", "--json", "--objective", "wirewarping", "--weights", "unit"});
+  ASSERT_EQ(warped.status, 0) << warped.err;
+  EXPECT_EQ(nlohmann::json::parse(strained.out)["wireBending"], 0.0);
+  const nlohmann::json json = nlohmann::json::parse(warped.out);
+  EXPECT_GT(json["wireBending"].get<double>(), 0);
+  EXPECT_EQ(json["check"]["passes"], true);
+}
+
 TEST_F(UnfoldCommand, RefusesWithOneSentenceAndWritesNothing) {
   struct Case {
     std::vector<std::string> words;
@@ -57,8 +68,8 @@ TEST_F(UnfoldCommand, RefusesWithOneSentenceAndWritesNothing) {
   };
   for (const Case& each : std::initializer_list<Case>{
            {{}, 1, "--units"},
-           {{"--units", "mm", "--objective", "wirewarping"}, 1, "not part of this version"},
            {{"--units", "mm", "--objective", "other"}, 2, "other"},
+           {{"--units", "mm", "--weights", "other"}, 2, "other"},
            {{"--units", "mm", "--area-weight", "-1"}, 2, "--area-weight"}}) {
     const ProgramResult result = run(each.words);
     EXPECT_EQ(result.status, each.status) << result.err;

@@ -38,9 +38,12 @@ void append(std::vector<Finding>& all, const std::vector<Finding>& more) {
 ContentHash cacheKey(const Piece& piece, const UnfoldOptions& options) {
   return ContentHasher()
       .add(contentHash(piece))
+      .add(options.objective)
+      .add(options.weights)
       .add(options.areaWeight)
       .add(options.wireStiffness)
       .add(options.maxSteps)
+      .add(options.keepSymmetry)
       .finish();
 }
 

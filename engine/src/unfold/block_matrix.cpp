@@ -7,6 +7,46 @@
 
 namespace toile::unfolding {
 
+namespace {
+
+std::vector<std::pair<std::uint32_t, std::uint32_t>> nodePairs(
+    const MirrorTies& ties, const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> nodes;
+  nodes.reserve(pairs.size());
+  for (const auto& [i, j] : pairs) {
+    if (ties.node[i] != ties.node[j]) nodes.emplace_back(ties.node[i], ties.node[j]);
+  }
+  return nodes;
+}
+
+}  // namespace
+
+Eigen::VectorXd MirrorTies::reduce(const Eigen::VectorXd& full) const {
+  if (empty()) return full;
+  Eigen::VectorXd reduced = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(nodeCount));
+  for (std::size_t v = 0; v < node.size(); ++v) {
+    reduced[2 * Eigen::Index{node[v]}] += xFactor[v] * full[static_cast<Eigen::Index>(2 * v)];
+    reduced[2 * Eigen::Index{node[v]} + 1] += full[static_cast<Eigen::Index>(2 * v + 1)];
+  }
+  return reduced;
+}
+
+Eigen::VectorXd MirrorTies::expand(const Eigen::VectorXd& reduced) const {
+  if (empty()) return reduced;
+  Eigen::VectorXd full(2 * static_cast<Eigen::Index>(node.size()));
+  for (std::size_t v = 0; v < node.size(); ++v) {
+    full[static_cast<Eigen::Index>(2 * v)] = xFactor[v] * reduced[2 * Eigen::Index{node[v]}];
+    full[static_cast<Eigen::Index>(2 * v + 1)] = reduced[2 * Eigen::Index{node[v]} + 1];
+  }
+  return full;
+}
+
+BlockPattern::BlockPattern(MirrorTies ties,
+                           const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
+    : BlockPattern(ties.nodeCount, nodePairs(ties, pairs)) {
+  ties_ = std::move(ties);
+}
+
 BlockPattern::BlockPattern(std::size_t nodeCount,
                            const std::vector<std::pair<std::uint32_t, std::uint32_t>>& pairs)
     : nodeStart_(nodeCount + 1, 0), columnStart_(2 * nodeCount + 1, 0) {
@@ -43,6 +83,19 @@ BlockPattern::BlockPattern(std::size_t nodeCount,
 }
 
 BlockPattern::Place BlockPattern::find(std::uint32_t i, std::uint32_t j) const {
+  Place place;
+  if (!ties_.empty()) {
+    place.xRow = ties_.xFactor[i];
+    place.xColumn = ties_.xFactor[j];
+    i = ties_.node[i];
+    j = ties_.node[j];
+    place.isPlain = place.xRow == 1 && place.xColumn == 1 && i != j;
+    place.isDiagonal = i == j;
+    if (place.isDiagonal) {
+      place.first = static_cast<int>(i);
+      return place;
+    }
+  }
   const bool transposed = i > j;
   if (transposed) std::swap(i, j);
   const auto begin = nodeRow_.begin() + nodeStart_[j];
@@ -50,7 +103,10 @@ BlockPattern::Place BlockPattern::find(std::uint32_t i, std::uint32_t j) const {
   const auto found = std::lower_bound(begin, end, static_cast<int>(i));
   TOILE_ASSERT(found != end && *found == static_cast<int>(i));
   const int offset = 2 * static_cast<int>(found - begin);
-  return {columnStart_[2 * j] + offset, columnStart_[2 * j + 1] + offset, transposed};
+  place.first = columnStart_[2 * j] + offset;
+  place.second = columnStart_[2 * j + 1] + offset;
+  place.transposed = transposed;
+  return place;
 }
 
 }  // namespace toile::unfolding

@@ -27,7 +27,9 @@ inline constexpr double kContactDepthMm = 1e-3;
 /// Stretches of every face.
 [[nodiscard]] FaceData<FaceDistortion> computeDistortion(const Problem& problem, const Plane& q);
 
-/// Turns the plane so that the model's z points up on average, and moves its centroid to 0.
-void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions, Plane& q);
+/// Turns the plane so that the model's z points up on average, and moves its centroid to 0. A
+/// symmetric one, whose axis is x = 0, keeps its axis on a coordinate axis.
+void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions, bool isSymmetric,
+           Plane& q);
 
 }  // namespace toile::unfolding

@@ -13,10 +13,8 @@ namespace {
 /// Weight of J^T J. With 1e4 the KKT system needs half as many solves again, with 1e2 the lengths
 /// stay inexact; larger costs digits.
 constexpr double kPenalty = 1e6;
-/// Full compression of the wires is in the matrix only where the lengths are nearly right.
+/// The full Hessian is in the matrix only where the lengths are nearly right.
 constexpr double kNearLengths = 1e-2;
-constexpr double kLengthTolerance = 1e-4;
-constexpr double kDecreaseTolerance = 1e-4;
 constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
 constexpr double kStallStep = 1e-4;
@@ -28,11 +26,12 @@ constexpr int kMaxProjections = 30;
 
 ConstrainedNewton::ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
                                      const BlockPattern& pattern, SparseFactor& factor,
-                                     std::pair<std::uint32_t, std::uint32_t> hold, double areaScale)
+                                     std::vector<std::pair<std::uint32_t, std::uint32_t>> holds,
+                                     double areaScale)
     : terms_(std::move(terms)),
       lengths_(&lengths),
       factor_(&factor),
-      hold_(hold),
+      holds_(std::move(holds)),
       areaScale_(areaScale),
       matrix_(pattern) {}
 
@@ -42,16 +41,32 @@ double ConstrainedNewton::energy(const Plane& q) const {
   return sum;
 }
 
-bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double compression) {
+bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indefinite) {
   matrix_.setZero();
   gradient_ = Eigen::VectorXd::Zero(state.q.size());
-  for (const EnergyTerm* term : terms_) term->addDerivatives(state.q, gradient_, matrix_);
-  lengths_->addCurvature(state.lambda, compression, kPenalty, matrix_);
+  for (const EnergyTerm* term : terms_)
+    term->addDerivatives(state.q, indefinite, gradient_, matrix_);
+  lengths_->addCurvature(state.lambda, indefinite, kPenalty, matrix_);
   // Moving and turning cost nothing; springs hold them without changing the solution.
-  const Eigen::Vector2d line = (at(state.q, hold_.second) - at(state.q, hold_.first)).normalized();
-  matrix_.addDiagonal(hold_.first, 1, 0, 1);
-  matrix_.addDiagonal(hold_.second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
+  const bool isTied = !matrix_.pattern().ties().empty();
+  if (isTied) matrix_.fillAxis();
+  for (const auto& [first, second] : holds_) {
+    if (isTied) {
+      matrix_.addDiagonal(first, 0, 0, 1);
+      continue;
+    }
+    const Eigen::Vector2d line = (at(state.q, second) - at(state.q, first)).normalized();
+    matrix_.addDiagonal(first, 1, 0, 1);
+    matrix_.addDiagonal(second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
+  }
   return factor_->factor(matrix_);
+}
+
+void ConstrainedNewton::solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x) {
+  const MirrorTies& ties = matrix_.pattern().ties();
+  if (ties.empty()) return factor_->solve(right, x);
+  factor_->solve(ties.reduce(right), x);
+  x = ties.expand(x);
 }
 
 // (H + penalty J^T J) d = -(g + J^T (lambda + penalty c)) fulfils H d + g + J^T lambda' = 0 with
@@ -63,7 +78,7 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::Vector
   Eigen::VectorXd right = gradient_;
   lengths_->addTransposeTimes(lambda + kPenalty * residual, right);
   right = -right;
-  factor_->solve(right, d);
+  solveTied(right, d);
   Plane e;
   double before = std::numeric_limits<double>::infinity();
   for (int i = 0; i < kMaxRepeats; ++i) {
@@ -74,7 +89,7 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::Vector
     before = size;
     right.setZero();
     lengths_->addTransposeTimes(-kPenalty * r, right);
-    factor_->solve(right, e);
+    solveTied(right, e);
     d += e;
   }
 }
@@ -87,10 +102,10 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
     Eigen::VectorXd right = Eigen::VectorXd::Zero(gradient_.size());
     lengths_->addTransposeTimes(-kPenalty * r, right);
     if (i == 0) {
-      factor_->solve(right, s);
+      solveTied(right, s);
     } else {
       Plane e;
-      factor_->solve(right, e);
+      solveTied(right, e);
       s += e;
     }
     r = lengths_->jacobianTimes(s) + residual;
@@ -99,22 +114,24 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
   return s;
 }
 
-NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Progress* progress) {
-  double compression = 1;
+NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& limits,
+                                      const Progress* progress) {
+  double indefinite = 1;
   int shortSteps = 0;
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
   Eigen::VectorXd c = lengths_->residual(state.q);
   double e = energy(state.q);
-  for (; state.steps < maxSteps; ++state.steps) {
+  for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     lengths_->linearise(state.q);
     const bool near = lengths_->worst(c) < kNearLengths;
-    bool factored = assembleAndFactor(state, near ? compression : 0);
+    bool factored = assembleAndFactor(state, near ? indefinite : 0);
+    lastStepWasConvex_ = factored && near && indefinite == 1;
     if (!factored && near) {
-      compression *= 0.5;
-      factored = assembleAndFactor(state, compression);
+      indefinite *= 0.5;
+      factored = assembleAndFactor(state, indefinite);
       if (!factored) {
-        compression *= 0.5;
+        indefinite *= 0.5;
         factored = assembleAndFactor(state, 0);
       }
     }
@@ -157,22 +174,22 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, int maxSteps, const Pr
     }
     if (!accepted) {
       // No way down that doubles can show: arrived if the lengths are right.
-      return lengths_->worst(c) < kLengthTolerance ? NewtonEnd::Converged : NewtonEnd::Stalled;
+      return lengths_->worst(c) < limits.lengths ? NewtonEnd::Converged : NewtonEnd::Stalled;
     }
     state.q = trial;
     state.lambda += alpha * (lambda - state.lambda);
     c = trialC;
     e = trialE;
     for (EnergyTerm* term : terms_) term->moveTo(state.q);
-    compression = std::min(1.0, 1.5 * compression + 0.1);
+    indefinite = std::min(1.0, 1.5 * indefinite + 0.1);
 
     const double error = lengths_->worst(c);
-    if (error < kLengthTolerance && alpha > 0.5 &&
-        -slope < kDecreaseTolerance * e + 1e-18 * areaScale_) {
+    if (error < limits.lengths && alpha > 0.5 &&
+        -slope < limits.decrease * e + 1e-18 * areaScale_) {
       ++state.steps;
       return NewtonEnd::Converged;
     }
-    shortSteps = alpha < kStallStep && error > kLengthTolerance ? shortSteps + 1 : 0;
+    shortSteps = alpha < kStallStep && error > limits.lengths ? shortSteps + 1 : 0;
     if (shortSteps >= kStallSteps) return NewtonEnd::Stalled;
   }
   return NewtonEnd::StepLimit;
@@ -205,6 +222,19 @@ double ConstrainedNewton::project(NewtonState& state) {
   }
   for (EnergyTerm* term : terms_) term->moveTo(state.q);
   return error;
+}
+
+void ConstrainedNewton::projectRoughly(NewtonState& state) {
+  constexpr int kRounds = 2;
+  constexpr double kEnough = 1e-5;
+  for (int i = 0; i < kRounds; ++i) {
+    const Eigen::VectorXd c = lengths_->residual(state.q);
+    if (lengths_->worst(c) < kEnough) break;
+    const Plane trial = state.q + leastCorrection(c, 1);
+    if (!std::isfinite(energy(trial))) break;
+    state.q = trial;
+  }
+  for (EnergyTerm* term : terms_) term->moveTo(state.q);
 }
 
 bool ConstrainedNewton::isStableAt(const NewtonState& state) {

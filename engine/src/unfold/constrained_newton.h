@@ -17,6 +17,13 @@ struct NewtonState {
   int steps = 0;           ///< in all
 };
 
+/// When to stop.
+struct NewtonLimits {
+  int maxSteps = 100;      ///< in all, over calls with one state
+  double lengths = 1e-4;   ///< greatest length error, relative
+  double decrease = 1e-4;  ///< of the merit function that the next step promises, relative
+};
+
 enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
 
 /// Minimises a sum of energy terms subject to the exact lengths of the wires.
@@ -28,30 +35,38 @@ enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
 ///   docs/unfolding.md.
 class ConstrainedNewton {
  public:
-  /// @param hold two vertices that fix place and direction of the plane.
+  /// @param holds two vertices that fix place and direction of the plane; a pair for each part
+  ///   that can move by itself. With ties the first of a pair holds the height, the rest is held.
   ConstrainedNewton(std::vector<EnergyTerm*> terms, WireLengths& lengths,
                     const BlockPattern& pattern, SparseFactor& factor,
-                    std::pair<std::uint32_t, std::uint32_t> hold, double areaScale);
+                    std::vector<std::pair<std::uint32_t, std::uint32_t>> holds, double areaScale);
 
-  [[nodiscard]] NewtonEnd minimise(NewtonState& state, int maxSteps, const Progress* progress);
+  [[nodiscard]] NewtonEnd minimise(NewtonState& state, const NewtonLimits& limits,
+                                   const Progress* progress);
+  /// Whether the last factorisation of minimise() was of the full Hessian.
+  [[nodiscard]] bool lastStepWasConvex() const { return lastStepWasConvex_; }
   /// Moves q the least so that the lengths are right to rounding.
   /// @return greatest error left, relative to max(target, 1 mm).
   [[nodiscard]] double project(NewtonState& state);
+  /// A little of the same with the last factor, for previews.
+  void projectRoughly(NewtonState& state);
   /// Whether the last point is a minimum with the wires' compression fully counted; false means
   /// that some wire would like to wave.
   [[nodiscard]] bool isStableAt(const NewtonState& state);
 
  private:
   [[nodiscard]] double energy(const Plane& q) const;
-  [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double compression);
+  [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double indefinite);
+  void solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x);
   void solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda, Plane& d);
   [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
 
   std::vector<EnergyTerm*> terms_;
   WireLengths* lengths_;
   SparseFactor* factor_;
-  std::pair<std::uint32_t, std::uint32_t> hold_;
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> holds_;
   double areaScale_;
+  bool lastStepWasConvex_ = false;
   BlockMatrix matrix_;
   Eigen::VectorXd gradient_;
 };

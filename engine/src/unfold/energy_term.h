@@ -14,8 +14,9 @@ class EnergyTerm {
   virtual ~EnergyTerm() = default;
   /// Infinite where the term is not defined (a flipped triangle).
   [[nodiscard]] virtual double energy(const Plane& q) const = 0;
-  /// Adds the gradient, and a positive semi-definite approximation of the Hessian.
-  virtual void addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+  /// Adds the gradient, and an approximation of the Hessian: positive semi-definite for
+  /// `indefinite` = 0; of what may make it indefinite that fraction is counted.
+  virtual void addDerivatives(const Plane& q, double indefinite, Eigen::VectorXd& gradient,
                               BlockMatrix& hessian) const = 0;
   /// The t > 0 at which q + t d leaves the domain; infinite if it never does.
   [[nodiscard]] virtual double distanceToBorder(const Plane& /*q*/, const Plane& /*d*/) const {

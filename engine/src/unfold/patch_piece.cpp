@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <array>
 
+#include "toile/unfold/symmetrise.h"
 #include "toile/unfold/unfold.h"
 
 // Notation: a mark says which chain owns a mesh edge. Faces keep their numbers when the surface is
@@ -300,6 +301,40 @@ std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain
       const EdgeId edge = mesh.findEdge(VertexId(v[i]), VertexId(v[i + 1]));
       if (target == targets.end() || target->second == mesh.length(edge)) continue;
       fmt::format_to(append, "# target {} {} {}\n", group, i, target->second);
+    }
+  }
+  return out;
+}
+
+std::string writePatchObj(const SymmetricPiece& symmetric, const FlatPiece& flat) {
+  const Piece& piece = symmetric.piece;
+  const Mesh& mesh = *piece.mesh;
+  std::string out = "# toile-units: mm\n";
+  const auto append = std::back_inserter(out);
+  for (const Eigen::Vector3d& p : mesh.positions()) {
+    fmt::format_to(append, "v {} {} {}\n", p.x(), p.y(), p.z());
+  }
+  for (const Eigen::Vector2d& p : flat.position.values()) {
+    fmt::format_to(append, "vt {} {}\n", p.x(), p.y());
+  }
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& t = mesh.triangles()[f];
+    if (piece.sourceFace[FaceId(f)].index() != f) {
+      fmt::format_to(append, "# source-face {} {}\n", f, piece.sourceFace[FaceId(f)].index());
+    }
+    fmt::format_to(append, "f {0}/{0} {1}/{1} {2}/{2}\n", t[0].index() + 1, t[1].index() + 1,
+                   t[2].index() + 1);
+  }
+  for (const Wire& wire : piece.wires) {
+    std::string group = fmt::format("{}{}_{}", kGroupPrefix, toString(wire.kind), wire.curve);
+    if (wire.part > 0) group += fmt::format("-{}", wire.part);
+    fmt::format_to(append, "g {}\nl", group);
+    for (const VertexId v : wire.vertices) fmt::format_to(append, " {}", v.index() + 1);
+    out += '\n';
+    for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
+      const EdgeId edge = mesh.findEdge(wire.vertices[i], wire.vertices[i + 1]);
+      if (wire.targetLength[i] == mesh.length(edge)) continue;
+      fmt::format_to(append, "# target {} {} {}\n", group, i, wire.targetLength[i]);
     }
   }
   return out;

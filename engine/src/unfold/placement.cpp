@@ -29,12 +29,20 @@ Eigen::Vector2d meanDirection(const Problem& problem, const std::vector<Eigen::V
 
 }  // namespace
 
-void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions, Plane& q) {
+void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions, bool isSymmetric,
+           Plane& q) {
+  // A symmetric plane has its axis on x = 0, to the last bit: it is turned by quarters alone.
+  bool axisIsUpright = true;
   for (const Eigen::Vector3d& axis :
        {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 0, 0)}) {
     const Eigen::Vector2d up = meanDirection(problem, positions, q, axis);
     if (up.norm() < kLevel) continue;
-    const Eigen::Vector2d u = up.normalized();
+    Eigen::Vector2d u = up.normalized();
+    if (isSymmetric) {
+      axisIsUpright = std::abs(u.y()) >= std::abs(u.x());
+      u = axisIsUpright ? Eigen::Vector2d(0, u.y() < 0 ? -1 : 1)
+                        : Eigen::Vector2d(u.x() < 0 ? -1 : 1, 0);
+    }
     for (Eigen::Index i = 0; i < q.size(); i += 2) {
       const Eigen::Vector2d p(q[i], q[i + 1]);
       q[i] = u.y() * p.x() - u.x() * p.y();
@@ -49,7 +57,8 @@ void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions
     moment += flat / 3 * (at(q, t.vertex[0]) + at(q, t.vertex[1]) + at(q, t.vertex[2]));
     area += flat;
   }
-  const Eigen::Vector2d centroid = moment / area;
+  Eigen::Vector2d centroid = moment / area;
+  if (isSymmetric) centroid[axisIsUpright ? 0 : 1] = 0;
   for (Eigen::Index i = 0; i < q.size(); i += 2) q.segment<2>(i) -= centroid;
 }
 

@@ -1,122 +1,185 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unfold/sparse_factor.h"
 
-#include <cblas.h>
-#include <cholmod.h>
-#include <dlfcn.h>
+#include <algorithm>
 
-#include <new>
+#include "unfold/dense_cholesky.h"
 
-#include "toile/core/assert.h"
-
+// Every node is two rows and columns. The front of a supernode is the dense matrix of its pivots
+// and the rows below them: the panel (the pivots' columns, kept: they become L) and the update
+// (what is left for the rows below, given to the parent).
 namespace toile::unfolding {
 namespace {
 
-/// A view of compressed columns that CHOLMOD reads but does not own.
-cholmod_sparse view(const std::vector<int>& start, const std::vector<int>& row,
-                    const std::vector<double>* values) {
-  cholmod_sparse a{};
-  a.nrow = a.ncol = start.size() - 1;
-  a.nzmax = row.size();
-  a.p = const_cast<int*>(start.data());
-  a.i = const_cast<int*>(row.data());
-  a.x = values != nullptr ? const_cast<double*>(values->data()) : nullptr;
-  a.stype = 1;  // the upper triangle: CHOLMOD then transposes once less
-  a.itype = CHOLMOD_INT;
-  a.xtype = values != nullptr ? CHOLMOD_REAL : CHOLMOD_PATTERN;
-  a.dtype = CHOLMOD_DOUBLE;
-  a.sorted = 1;
-  a.packed = 1;
-  return a;
+constexpr std::size_t kPerNode = 2;
+
+std::size_t pivotsOf(const Supernode& node) {
+  return kPerNode * static_cast<std::size_t>(node.pivots());
+}
+std::size_t belowOf(const Supernode& node) {
+  return kPerNode * node.rows.size();
 }
 
-/// CHOLMOD may be built with OpenMP, whose threads spin beside ours for loops of microseconds. Its
-/// runtime is then loaded, and is asked not to start any for the calling thread.
-void holdToOneThread() {
-  openblas_set_num_threads(1);  // idle BLAS threads cost, and sums depend on their number
-  using SetLevels = void (*)(int);
-  static const auto setLevels =
-      reinterpret_cast<SetLevels>(dlsym(RTLD_DEFAULT, "omp_set_max_active_levels"));
-  if (setLevels != nullptr) setLevels(0);
+/// Adds the lower part of a child's update to the front of its parent.
+void addUpdate(const Supernode& child, const double* update, std::size_t parentPivots,
+               std::size_t parentRows, double* panel, double* front) {
+  const std::size_t size = belowOf(child);
+  const std::size_t below = parentRows - parentPivots;
+  for (std::size_t c = 0; c < child.rowsInPanel.size(); ++c) {
+    const std::size_t column = kPerNode * static_cast<std::size_t>(child.rowsInPanel[c]);
+    for (std::size_t side = 0; side < kPerNode; ++side) {
+      const double* in = update + (kPerNode * c + side) * size;
+      const std::size_t own = column + side;
+      // Rows of the front count from its first pivot in the panel, from its first row in the
+      // update.
+      double* out = own < parentPivots ? panel + own * parentRows
+                                       : front + (own - parentPivots) * below - parentPivots;
+      if (side == 0) out[own] += in[kPerNode * c];
+      out[column + 1] += in[kPerNode * c + 1];
+      for (std::size_t r = c + 1; r < child.rowsInPanel.size(); ++r) {
+        const std::size_t row = kPerNode * static_cast<std::size_t>(child.rowsInPanel[r]);
+        out[row] += in[kPerNode * r];
+        out[row + 1] += in[kPerNode * r + 1];
+      }
+    }
+  }
 }
 
 }  // namespace
 
-struct SparseFactor::State {
-  cholmod_common common{};
-  cholmod_factor* factor = nullptr;
-  cholmod_dense* x = nullptr;
-  cholmod_dense* y = nullptr;
-  cholmod_dense* e = nullptr;
-
-  State() { cholmod_start(&common); }
-  ~State() {
-    cholmod_free_dense(&x, &common);
-    cholmod_free_dense(&y, &common);
-    cholmod_free_dense(&e, &common);
-    cholmod_free_factor(&factor, &common);
-    cholmod_finish(&common);
+SparseFactor::SparseFactor(const BlockPattern& pattern) : elimination_(pattern) {
+  const std::vector<Supernode>& nodes = elimination_.supernodes;
+  panelStart_.reserve(nodes.size() + 1);
+  panelStart_.push_back(0);
+  std::size_t deepest = 0, depth = 0, largest = 0;
+  std::vector<std::size_t> waiting(nodes.size(), 0);  // numbers of the children's updates
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    const std::size_t pivots = pivotsOf(nodes[s]), below = belowOf(nodes[s]);
+    panelStart_.push_back(panelStart_.back() + pivots * (pivots + below));
+    depth = depth - waiting[s] + below * below;
+    deepest = std::max(deepest, depth + waiting[s]);
+    largest = std::max({largest, below * below, pivots + below});
+    if (nodes[s].parent >= 0) waiting[static_cast<std::size_t>(nodes[s].parent)] += below * below;
   }
-  State(const State&) = delete;
-  State& operator=(const State&) = delete;
-  void check() const {
-    if (common.status == CHOLMOD_OUT_OF_MEMORY || common.status == CHOLMOD_TOO_LARGE) {
-      throw std::bad_alloc();
+  panels_.resize(panelStart_.back());
+  stack_.resize(deepest);
+  front_.resize(largest);
+
+  // Where the numbers of the matrix go: into the panel of the node that is eliminated first.
+  std::vector<std::uint32_t> supernodeOf(pattern.nodeCount());
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    std::fill(supernodeOf.begin() + nodes[s].first, supernodeOf.begin() + nodes[s].end,
+              static_cast<std::uint32_t>(s));
+  }
+  const auto forEachNumber = [&](const auto& visit) {
+    for (std::size_t column = 0; column < 2 * pattern.nodeCount(); ++column) {
+      for (int k = pattern.columnStart()[column]; k < pattern.columnStart()[column + 1]; ++k) {
+        const auto row = static_cast<std::size_t>(pattern.row()[static_cast<std::size_t>(k)]);
+        std::size_t a =
+            kPerNode * static_cast<std::size_t>(elimination_.placeOfNode[row / 2]) + row % 2;
+        std::size_t b =
+            kPerNode * static_cast<std::size_t>(elimination_.placeOfNode[column / 2]) + column % 2;
+        if (a < b) std::swap(a, b);
+        visit(k, a, b);  // row a, column b, a >= b
+      }
     }
-    TOILE_ASSERT(common.status >= CHOLMOD_OK);
-  }
-};
-
-SparseFactor::SparseFactor(const BlockPattern& pattern) : state_(std::make_unique<State>()) {
-  holdToOneThread();
-  cholmod_common& common = state_->common;
-  common.print = 0;
-  common.nmethods = 1;
-  common.method[0].ordering = CHOLMOD_GIVEN;
-  common.postorder = 1;
-  // Its simplicial code would make L D L^T and take negative pivots without a word.
-  common.supernodal = CHOLMOD_SUPERNODAL;
-  common.final_ll = 1;
-  common.quick_return_if_not_posdef = 1;
-
-  // The two numbers of a node have the same neighbours: ordering nodes is the same and cheaper.
-  cholmod_sparse nodes = view(pattern.nodeStart(), pattern.nodeRow(), nullptr);
-  std::vector<int> order(pattern.nodeCount());
-  cholmod_amd(&nodes, nullptr, 0, order.data(), &common);
-  state_->check();
-  std::vector<int> expanded;
-  expanded.reserve(2 * order.size());
-  for (const int node : order) {
-    expanded.push_back(2 * node);
-    expanded.push_back(2 * node + 1);
-  }
-  cholmod_sparse a = view(pattern.columnStart(), pattern.row(), nullptr);
-  state_->factor = cholmod_analyze_p(&a, expanded.data(), nullptr, 0, &common);
-  state_->check();
+  };
+  moveStart_.assign(nodes.size() + 1, 0);
+  forEachNumber([&](int, std::size_t, std::size_t b) { ++moveStart_[supernodeOf[b / 2] + 1]; });
+  for (std::size_t s = 0; s < nodes.size(); ++s) moveStart_[s + 1] += moveStart_[s];
+  moveFrom_.resize(pattern.row().size());
+  moveTo_.resize(pattern.row().size());
+  std::vector<std::size_t> fill(moveStart_.begin(), moveStart_.end() - 1);
+  forEachNumber([&](int k, std::size_t a, std::size_t b) {
+    const std::uint32_t s = supernodeOf[b / 2];
+    const Supernode& node = nodes[s];
+    const std::size_t first = kPerNode * static_cast<std::size_t>(node.first);
+    const int place = static_cast<int>(a / 2);
+    std::size_t row = a - first;
+    if (place >= node.end) {
+      const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), place);
+      row = pivotsOf(node) + kPerNode * static_cast<std::size_t>(found - node.rows.begin()) + a % 2;
+    }
+    const std::size_t at = fill[s]++;
+    moveFrom_[at] = k;
+    moveTo_[at] = static_cast<std::uint32_t>((b - first) * (pivotsOf(node) + belowOf(node)) + row);
+  });
+  x_.resize(kPerNode * pattern.nodeCount());
 }
 
-SparseFactor::~SparseFactor() = default;
-
 bool SparseFactor::factor(const BlockMatrix& matrix) {
-  const BlockPattern& pattern = matrix.pattern();
-  cholmod_sparse a = view(pattern.columnStart(), pattern.row(), &matrix.values());
-  cholmod_factorize(&a, state_->factor, &state_->common);
-  if (state_->common.status == CHOLMOD_NOT_POSDEF) return false;
-  state_->check();
+  const std::vector<Supernode>& nodes = elimination_.supernodes;
+  std::fill(panels_.begin(), panels_.end(), 0.0);
+  waiting_.clear();
+  double* top = stack_.data();
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    const Supernode& node = nodes[s];
+    const std::size_t pivots = pivotsOf(node), below = belowOf(node), rows = pivots + below;
+    double* panel = panels_.data() + panelStart_[s];
+    for (std::size_t m = moveStart_[s]; m < moveStart_[s + 1]; ++m) {
+      panel[moveTo_[m]] = matrix.values()[static_cast<std::size_t>(moveFrom_[m])];
+    }
+    double* front = front_.data();
+    std::fill_n(front, below * below, 0.0);
+    while (!waiting_.empty() && nodes[waiting_.back()].parent == static_cast<int>(s)) {
+      const Supernode& child = nodes[waiting_.back()];
+      top -= belowOf(child) * belowOf(child);
+      addUpdate(child, top, pivots, rows, panel, front);
+      waiting_.pop_back();
+    }
+    if (!factorPanel(panel, rows, pivots, packed_)) return false;
+    if (below == 0) continue;
+    subtractOuterProduct(panel, rows, pivots, front, packed_);
+    std::copy_n(front, below * below, top);
+    top += below * below;
+    waiting_.push_back(s);
+  }
   return true;
 }
 
 void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  cholmod_dense right{};
-  right.nrow = right.d = right.nzmax = static_cast<std::size_t>(b.size());
-  right.ncol = 1;
-  right.x = const_cast<double*>(b.data());
-  right.xtype = CHOLMOD_REAL;
-  right.dtype = CHOLMOD_DOUBLE;
-  cholmod_solve2(CHOLMOD_A, state_->factor, &right, nullptr, &state_->x, nullptr, &state_->y,
-                 &state_->e, &state_->common);
-  state_->check();
-  x = Eigen::Map<const Eigen::VectorXd>(static_cast<const double*>(state_->x->x), b.size());
+  const std::vector<Supernode>& nodes = elimination_.supernodes;
+  const std::vector<int>& placeOfNode = elimination_.placeOfNode;
+  for (std::size_t v = 0; v < placeOfNode.size(); ++v) {
+    const std::size_t place = kPerNode * static_cast<std::size_t>(placeOfNode[v]);
+    x_[place] = b[static_cast<Eigen::Index>(2 * v)];
+    x_[place + 1] = b[static_cast<Eigen::Index>(2 * v + 1)];
+  }
+  // The rows below a supernode are gathered behind its pivots, so that the kernels see one vector.
+  const auto gather = [&](const Supernode& node) {
+    double* out = front_.data();
+    out = std::copy_n(x_.data() + kPerNode * static_cast<std::size_t>(node.first), pivotsOf(node),
+                      out);
+    for (const int row : node.rows) {
+      out = std::copy_n(x_.data() + kPerNode * static_cast<std::size_t>(row), kPerNode, out);
+    }
+  };
+  for (std::size_t s = 0; s < nodes.size(); ++s) {
+    const Supernode& node = nodes[s];
+    gather(node);
+    const std::size_t pivots = pivotsOf(node);
+    solveForward(panels_.data() + panelStart_[s], pivots + belowOf(node), pivots, front_.data());
+    const double* in = front_.data();
+    std::copy_n(in, pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
+    in += pivots;
+    for (const int row : node.rows) {
+      std::copy_n(in, kPerNode, x_.data() + kPerNode * static_cast<std::size_t>(row));
+      in += kPerNode;
+    }
+  }
+  for (std::size_t s = nodes.size(); s-- > 0;) {
+    const Supernode& node = nodes[s];
+    gather(node);
+    const std::size_t pivots = pivotsOf(node);
+    solveBackward(panels_.data() + panelStart_[s], pivots + belowOf(node), pivots, front_.data());
+    std::copy_n(front_.data(), pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
+  }
+  x.resize(b.size());
+  for (std::size_t v = 0; v < placeOfNode.size(); ++v) {
+    const std::size_t place = kPerNode * static_cast<std::size_t>(placeOfNode[v]);
+    x[static_cast<Eigen::Index>(2 * v)] = x_[place];
+    x[static_cast<Eigen::Index>(2 * v + 1)] = x_[place + 1];
+  }
 }
 
 }  // namespace toile::unfolding

@@ -15,6 +15,7 @@ namespace toile::unfolding {
 
 /// Least squares conformal map at the scale of least strain; it may flip triangles.
 /// Nothing if the factorisation fails.
+/// @param pins on the axis if the pattern has ties.
 /// @see Levy, Petitjean, Ray and Maillot, "Least Squares Conformal Maps", ACM TOG 21(3), 2002.
 [[nodiscard]] std::optional<Plane> conformalStart(const Problem& problem,
                                                   const std::vector<Eigen::Vector3d>& positions,

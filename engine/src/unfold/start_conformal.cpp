@@ -30,11 +30,16 @@ std::optional<Plane> conformalStart(const Problem& problem,
   Eigen::VectorXd force = Eigen::VectorXd::Zero(2 * static_cast<Eigen::Index>(problem.vertexCount));
   matrix.addDiagonal(pins.first, kPinStiffness, 0, kPinStiffness);
   matrix.addDiagonal(pins.second, kPinStiffness, 0, kPinStiffness);
-  force[2 * Eigen::Index{pins.first}] = -0.5 * kPinStiffness * distance;
-  force[2 * Eigen::Index{pins.second}] = 0.5 * kPinStiffness * distance;
+  // With ties the axis is x = 0, and the pins lie on it.
+  const MirrorTies& ties = pattern.ties();
+  const Eigen::Index along = ties.empty() ? 0 : 1;
+  force[2 * Eigen::Index{pins.first} + along] = -0.5 * kPinStiffness * distance;
+  force[2 * Eigen::Index{pins.second} + along] = 0.5 * kPinStiffness * distance;
+  matrix.fillAxis();
   if (!factor.factor(matrix)) return std::nullopt;
   Plane q;
-  factor.solve(force, q);
+  factor.solve(ties.reduce(force), q);
+  q = ties.expand(q);
   if (!q.allFinite()) return std::nullopt;
   scaleToLeastStrain(problem, q);
   return q;

@@ -100,7 +100,7 @@ double StrainEnergy::energy(const Plane& q) const {
 // orthonormal modes: two scalings along the singular vectors, which the 2x2 matrix of second
 // derivatives mixes, the twist (turning F) and the flip (turning its reflection part); see Smith,
 // De Goes and Kim, "Analytic Eigensystems for Isotropic Distortion Energies", ACM TOG 38(1), 2019.
-void StrainEnergy::addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+void StrainEnergy::addDerivatives(const Plane& q, double /*indefinite*/, Eigen::VectorXd& gradient,
                                   BlockMatrix& hessian) const {
   for (std::size_t i = 0; i < problem_->triangles.size(); ++i) {
     const RestTriangle& t = problem_->triangles[i];
@@ -127,29 +127,50 @@ void StrainEnergy::addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
         0.5 * ((cosine + sine) * s.rotation + (cosine - sine) * s.reflection),
         0.5 * ((cosine - sine) * s.rotation - (cosine + sine) * s.reflection),
         std::sqrt(0.5) * quarterTurn(s.rotation), std::sqrt(0.5) * quarterTurn(s.reflection)};
-
-    const Matrix2 stress = t.area * 0.5 * ((f1 + f2) * s.rotation + (f1 - f2) * s.reflection);
-    for (std::size_t k = 0; k < 3; ++k) {
-      gradient.segment<2>(2 * Eigen::Index{t.vertex[k]}) += stress * t.hatGradient[k];
-    }
-
-    std::array<Matrix2, 3> diagonal = {Matrix2::Zero(), Matrix2::Zero(), Matrix2::Zero()};
-    std::array<Matrix2, 3> side = {Matrix2::Zero(), Matrix2::Zero(), Matrix2::Zero()};
+    // The Hessian by the numbers of F, row by row.
+    Eigen::Matrix4d byMap = Eigen::Matrix4d::Zero();
     for (std::size_t m = 0; m < 4; ++m) {
       if (!(eigenvalue[m] > 0)) continue;
-      const double factor = t.area * eigenvalue[m];
-      std::array<Vector2, 3> w;
-      for (std::size_t k = 0; k < 3; ++k) w[k] = mode[m] * t.hatGradient[k];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const Vector2 scaled = factor * w[k];
-        diagonal[k] += scaled * w[k].transpose();
-        side[k] += scaled * w[(k + 1) % 3].transpose();
-      }
+      const Eigen::Vector4d v(mode[m](0, 0), mode[m](0, 1), mode[m](1, 0), mode[m](1, 1));
+      const Eigen::Vector4d scaled = t.area * eigenvalue[m] * v;
+      byMap += scaled * v.transpose();
     }
-    for (std::size_t k = 0; k < 3; ++k) {
-      hessian.addDiagonal(t.vertex[k], diagonal[k](0, 0), diagonal[k](0, 1), diagonal[k](1, 1));
-      hessian.add(places_[i][k], side[k]);
-    }
+
+    const Matrix2 stress = t.area * 0.5 * ((f1 + f2) * s.rotation + (f1 - f2) * s.reflection);
+    const Vector2 pull0 = stress * t.hatGradient[0];
+    const Vector2 pull1 = stress * t.hatGradient[1];
+    gradient.segment<2>(2 * Eigen::Index{t.vertex[0]}) += pull0;
+    gradient.segment<2>(2 * Eigen::Index{t.vertex[1]}) += pull1;
+    gradient.segment<2>(2 * Eigen::Index{t.vertex[2]}) -= pull0 + pull1;
+
+    // Moving all three vertices changes nothing: the blocks of the third follow from the others.
+    const auto byVertex = [&](std::size_t k) {
+      const Vector2& g = t.hatGradient[k];
+      Eigen::Matrix<double, 4, 2> columns;
+      columns.col(0) = byMap.col(0) * g.x() + byMap.col(1) * g.y();
+      columns.col(1) = byMap.col(2) * g.x() + byMap.col(3) * g.y();
+      return columns;
+    };
+    const auto block = [&](std::size_t k, const Eigen::Matrix<double, 4, 2>& columns) {
+      const Vector2& g = t.hatGradient[k];
+      Matrix2 b;
+      b.row(0) = g.x() * columns.row(0) + g.y() * columns.row(1);
+      b.row(1) = g.x() * columns.row(2) + g.y() * columns.row(3);
+      return b;
+    };
+    const Eigen::Matrix<double, 4, 2> of1 = byVertex(1);
+    const Matrix2 b00 = block(0, byVertex(0));
+    const Matrix2 b01 = block(0, of1);
+    const Matrix2 b11 = block(1, of1);
+    const Matrix2 b02 = -(b00 + b01);
+    const Matrix2 b12 = -(b01.transpose() + b11);
+    const Matrix2 b22 = -(b02 + b12);
+    hessian.addDiagonal(t.vertex[0], b00(0, 0), b00(0, 1), b00(1, 1));
+    hessian.addDiagonal(t.vertex[1], b11(0, 0), b11(0, 1), b11(1, 1));
+    hessian.addDiagonal(t.vertex[2], b22(0, 0), b22(0, 1), b22(1, 1));
+    hessian.add(places_[i][0], b01);
+    hessian.add(places_[i][1], b12);
+    hessian.add(places_[i][2], b02.transpose());
   }
 }
 

@@ -28,7 +28,7 @@ class StrainEnergy : public EnergyTerm {
   StrainEnergy(const Problem& problem, const BlockPattern& pattern, double areaWeight);
 
   [[nodiscard]] double energy(const Plane& q) const override;
-  void addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+  void addDerivatives(const Plane& q, double indefinite, Eigen::VectorXd& gradient,
                       BlockMatrix& hessian) const override;
   [[nodiscard]] double distanceToBorder(const Plane& q, const Plane& d) const override;
 

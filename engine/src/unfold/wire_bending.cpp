@@ -13,6 +13,16 @@ double angleBetween(const Vector2& from, const Vector2& to) {
   return std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
 }
 
+/// Second derivatives of a vector's direction by the vector.
+Eigen::Matrix2d bendOfDirection(const Vector2& v) {
+  const double square = v.squaredNorm();
+  const double diagonal = 2 * v.x() * v.y() / (square * square);
+  const double other = (v.y() * v.y() - v.x() * v.x()) / (square * square);
+  Eigen::Matrix2d bend;
+  bend << diagonal, other, other, -diagonal;
+  return bend;
+}
+
 }  // namespace
 
 std::vector<double> cornerAngles(const Problem& problem, const Plane& q) {
@@ -32,8 +42,9 @@ std::vector<double> cornerAngles(const Problem& problem, const Plane& q) {
   return angles;
 }
 
-WireBending::WireBending(const Problem& problem, const BlockPattern& pattern, const Plane& q)
-    : problem_(&problem), theta_(cornerAngles(problem, q)) {
+WireBending::WireBending(const Problem& problem, const BlockPattern& pattern,
+                         std::vector<double> theta)
+    : problem_(&problem), theta_(std::move(theta)) {
   places_.reserve(problem.corners.size());
   for (const Corner& c : problem.corners) {
     places_.push_back({pattern.find(c.at, c.before), pattern.find(c.at, c.after),
@@ -58,10 +69,10 @@ double WireBending::energy(const Plane& q) const {
   return stiffness_ * sum;
 }
 
-// Gauss-Newton: the second derivatives of theta bring no gain and are not definite.
-void WireBending::addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+void WireBending::addDerivatives(const Plane& q, double indefinite, Eigen::VectorXd& gradient,
                                  BlockMatrix& hessian) const {
   if (stiffness_ == 0) return;
+  const double second = secondDerivatives_ ? indefinite : 0;
   for (std::size_t i = 0; i < theta_.size(); ++i) {
     const Corner& c = problem_->corners[i];
     const double weight = 2 * stiffness_ / c.span;
@@ -84,6 +95,18 @@ void WireBending::addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
     hessian.add(places_[i][0], weight * here * before.transpose());
     hessian.add(places_[i][1], weight * here * after.transpose());
     hessian.add(places_[i][2], weight * before * after.transpose());
+    if (second == 0) continue;
+    // theta = direction of w - direction of u.
+    const Eigen::Matrix2d byU = -second * pull * bendOfDirection(u);
+    const Eigen::Matrix2d byW = second * pull * bendOfDirection(w);
+    const auto addBlock = [&](std::uint32_t node, const Eigen::Matrix2d& b) {
+      hessian.addDiagonal(node, b(0, 0), b(0, 1), b(1, 1));
+    };
+    addBlock(c.before, byU);
+    addBlock(c.after, byW);
+    addBlock(c.at, byU + byW);
+    hessian.add(places_[i][0], -byU);
+    hessian.add(places_[i][1], -byW);
   }
 }
 

@@ -12,14 +12,17 @@ namespace toile::unfolding {
 /// theta is followed by continuity, so that it may leave (0, 2 pi).
 class WireBending : public EnergyTerm {
  public:
-  /// @param q the start; its triangles are upright.
-  WireBending(const Problem& problem, const BlockPattern& pattern, const Plane& q);
+  /// @param theta of the corners at the start; see cornerAngles().
+  WireBending(const Problem& problem, const BlockPattern& pattern, std::vector<double> theta);
 
   /// mm^3; (beta sqrt(area))^3 for wires that cannot wave below the length beta sqrt(area).
   void setStiffness(double stiffness) { stiffness_ = stiffness; }
+  /// Counts the second derivatives of theta too: they bring nothing where the cloth's strain rules,
+  /// and all where wires alone are bent.
+  void useSecondDerivatives() { secondDerivatives_ = true; }
 
   [[nodiscard]] double energy(const Plane& q) const override;
-  void addDerivatives(const Plane& q, Eigen::VectorXd& gradient,
+  void addDerivatives(const Plane& q, double indefinite, Eigen::VectorXd& gradient,
                       BlockMatrix& hessian) const override;
   void moveTo(const Plane& q) override;
   [[nodiscard]] const std::vector<double>& theta() const { return theta_; }
@@ -29,6 +32,7 @@ class WireBending : public EnergyTerm {
 
   const Problem* problem_;
   double stiffness_ = 0;
+  bool secondDerivatives_ = false;
   std::vector<double> theta_;
   /// Of the pairs at-before, at-after, before-after.
   std::vector<std::array<BlockPattern::Place, 3>> places_;

@@ -64,7 +64,7 @@ Eigen::VectorXd gradientOf(const EnergyTerm& term, const Fixture& f, const Plane
                            BlockMatrix& hessian) {
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(q.size());
   hessian.setZero();
-  term.addDerivatives(q, gradient, hessian);
+  term.addDerivatives(q, 1, gradient, hessian);
   EXPECT_EQ(&hessian.pattern(), &f.pattern);
   return gradient;
 }
@@ -144,15 +144,35 @@ TEST(StrainEnergy, KnowsWhereAStepFlipsTheFirstTriangle) {
 
 TEST(WireBending, GradientIsTheSlopeOfTheEnergy) {
   const Fixture f(test::irregularGrid(4, 3), 1.1, 1.5, 3);
-  WireBending bending(f.problem, f.pattern, f.q);
+  WireBending bending(f.problem, f.pattern, cornerAngles(f.problem, f.q));
   bending.setStiffness(7);
   EXPECT_GT(bending.energy(f.q), 1e-3);
   expectGradientMatchesEnergy(bending, f);
 }
 
+TEST(WireBending, MatrixIsTheHessianWithSecondDerivatives) {
+  const Fixture f(test::irregularGrid(4, 3), 1.1, 1.5, 3);
+  WireBending bending(f.problem, f.pattern, cornerAngles(f.problem, f.q));
+  bending.setStiffness(7);
+  bending.useSecondDerivatives();
+  BlockMatrix hessian(f.pattern), unused(f.pattern);
+  (void)gradientOf(bending, f, f.q, hessian);
+  const Eigen::MatrixXd full = dense(hessian);
+  constexpr double kStep = 1e-5;
+  for (Eigen::Index i = 0; i < f.q.size(); ++i) {
+    Plane ahead = f.q, behind = f.q;
+    ahead[i] += kStep;
+    behind[i] -= kStep;
+    const Eigen::VectorXd column =
+        (gradientOf(bending, f, ahead, unused) - gradientOf(bending, f, behind, unused)) /
+        (2 * kStep);
+    EXPECT_LT((full.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * full.cwiseAbs().maxCoeff());
+  }
+}
+
 TEST(WireBending, AgreesWithTheTrianglesAngles) {
   const Fixture f(test::irregularGrid(4, 3), 1.1, 1.5, 4);
-  WireBending bending(f.problem, f.pattern, f.q);
+  WireBending bending(f.problem, f.pattern, cornerAngles(f.problem, f.q));
   bending.moveTo(f.q);  // now by continuity from the sums of the triangles' angles
   const std::vector<double> sums = cornerAngles(f.problem, f.q);
   ASSERT_EQ(sums.size(), 14U);
@@ -180,7 +200,7 @@ TEST(SparseFactor, SolvesAndNoticesAnIndefiniteMatrix) {
   const StrainEnergy strain(f.problem, f.pattern, 2);
   BlockMatrix matrix(f.pattern);
   Eigen::VectorXd gradient = Eigen::VectorXd::Zero(f.q.size());
-  strain.addDerivatives(f.q, gradient, matrix);
+  strain.addDerivatives(f.q, 1, gradient, matrix);
   for (std::uint32_t v = 0; v < f.problem.vertexCount; ++v) matrix.addDiagonal(v, 1, 0, 1);
   SparseFactor factor(f.pattern);
   ASSERT_TRUE(factor.factor(matrix));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "cgal_lscm.h"
+#include "cgal_parameterization.h"
 
 #ifndef CGAL_EIGEN3_ENABLED
 #define CGAL_EIGEN3_ENABLED 1
@@ -7,12 +7,16 @@
 #include <CGAL/Polygon_mesh_processing/measure.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Surface_mesh.h>
+#include <CGAL/Surface_mesh_parameterization/ARAP_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/LSCM_parameterizer_3.h>
 #include <CGAL/Surface_mesh_parameterization/parameterize.h>
 
 namespace toile::bench {
 
-std::vector<Eigen::Vector2d> cgalLscm(const Mesh& mesh) {
+namespace {
+
+template <template <class> class Parameterizer>
+std::vector<Eigen::Vector2d> parameterised(const Mesh& mesh) {
   namespace Parameterization = CGAL::Surface_mesh_parameterization;
   using Kernel = CGAL::Simple_cartesian<double>;
   using Surface = CGAL::Surface_mesh<Kernel::Point_3>;
@@ -24,7 +28,7 @@ std::vector<Eigen::Vector2d> cgalLscm(const Mesh& mesh) {
   }
   auto plane = surface.add_property_map<Vertex, Kernel::Point_2>("v:plane").first;
   const auto border = CGAL::Polygon_mesh_processing::longest_border(surface).first;
-  Parameterization::LSCM_parameterizer_3<Surface> parameterizer;
+  Parameterizer<Surface> parameterizer;
   if (Parameterization::parameterize(surface, parameterizer, border, plane) !=
       Parameterization::OK) {
     return {};
@@ -35,6 +39,21 @@ std::vector<Eigen::Vector2d> cgalLscm(const Mesh& mesh) {
     positions.emplace_back(p.x(), p.y());
   }
   return positions;
+}
+
+template <class Surface>
+using Lscm = CGAL::Surface_mesh_parameterization::LSCM_parameterizer_3<Surface>;
+template <class Surface>
+using Arap = CGAL::Surface_mesh_parameterization::ARAP_parameterizer_3<Surface>;
+
+}  // namespace
+
+std::vector<Eigen::Vector2d> cgalLscm(const Mesh& mesh) {
+  return parameterised<Lscm>(mesh);
+}
+
+std::vector<Eigen::Vector2d> cgalArap(const Mesh& mesh) {
+  return parameterised<Arap>(mesh);
 }
 
 }  // namespace toile::bench

@@ -12,4 +12,7 @@ namespace toile::bench {
 /// Positions per vertex; empty if it fails. Includes making CGAL's own mesh.
 std::vector<Eigen::Vector2d> cgalLscm(const Mesh& mesh);
 
+/// CGAL's ARAP parameterisation with its defaults, likewise.
+std::vector<Eigen::Vector2d> cgalArap(const Mesh& mesh);
+
 }  // namespace toile::bench

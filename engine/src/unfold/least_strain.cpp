@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "unfold/least_strain.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "unfold/check.h"
+#include "unfold/start.h"
+#include "unfold/symmetry.h"
+
+namespace toile::unfolding {
+namespace {
+
+constexpr int kMaxStiffenings = 6;
+/// Waves longer than this share of the piece's size are its shape, not crinkles.
+constexpr double kMaxRaisedStiffness = 0.2;
+/// How often the stiffness is doubled to part wires that cross; most crossings are the surface's
+/// own overlap, which no stiffness cures.
+constexpr int kMaxPartings = 2;
+/// Length errors (relative) that the last projection can take away, and that it must leave.
+constexpr double kNearEnoughToProject = 1e-3;
+constexpr double kExact = 1e-9;
+/// One step brings lengths to a thousandth and the strain to where the eye sees no difference.
+constexpr NewtonLimits kPreview{.maxSteps = 1};
+
+/// The compression at which a bar of the wires' stiffness waves in the cloth beside it
+/// (docs/unfolding.md).
+double bucklingLoad(double areaWeight, double waveLength) {
+  const double h = 2 * (areaWeight + 1) / (areaWeight + 2);
+  return 6 * std::cbrt(h * h) * waveLength;
+}
+
+/// An inner wire has cloth and stiffness on both sides and bears twice as much.
+double highestCompression(const Problem& problem, const Eigen::VectorXd& lambda) {
+  double highest = 0;
+  for (std::size_t i = 0; i < problem.wireEdges.size(); ++i) {
+    const double compression = -lambda[static_cast<Eigen::Index>(i)];
+    highest = std::max(highest, problem.wireEdges[i].inner ? compression / 2 : compression);
+  }
+  return highest;
+}
+
+}  // namespace
+
+BlockPattern couplingsOf(const Problem& problem, MirrorTies ties) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+  pairs.reserve(3 * problem.triangles.size() + problem.corners.size() + problem.wireEdges.size());
+  for (const RestTriangle& t : problem.triangles) {
+    for (std::size_t k = 0; k < 3; ++k) pairs.emplace_back(t.vertex[k], t.vertex[(k + 1) % 3]);
+  }
+  for (const Corner& c : problem.corners) pairs.emplace_back(c.before, c.after);
+  for (const WireEdge& edge : problem.wireEdges) pairs.emplace_back(edge.a, edge.b);
+  return ties.empty() ? BlockPattern(problem.vertexCount, pairs)
+                      : BlockPattern(std::move(ties), pairs);
+}
+
+Result<Plane> unfoldedStart(const Problem& problem, const std::vector<Eigen::Vector3d>& positions,
+                            std::pair<std::uint32_t, std::uint32_t> hold,
+                            const BlockPattern& pattern, SparseFactor& factor) {
+  std::optional<Plane> start = conformalStart(problem, positions, hold, pattern, factor);
+  if (!start || flippedCount(problem, *start) > 0) start = circleStart(problem);
+  if (!start || flippedCount(problem, *start) > 0) {
+    return Error{ErrorCode::NotConverged,
+                 "no first placement without folded faces was found; repair very thin faces or "
+                 "split the piece",
+                 {}};
+  }
+  return *std::move(start);
+}
+
+LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options,
+                         const PieceSymmetry* symmetry)
+    : problem_(&problem),
+      options_(options),
+      symmetry_(symmetry),
+      pattern_(couplingsOf(
+          problem, symmetry != nullptr ? tiesOf(*symmetry, problem.vertexCount) : MirrorTies{})),
+      factor_(pattern_),
+      strain_(problem, pattern_, options.areaWeight),
+      lengths_(problem, pattern_) {}
+
+Result<void> LeastStrain::start(const Piece& piece) {
+  const std::vector<Eigen::Vector3d>& positions = piece.mesh->positions();
+  const auto hold = farBoundaryPair(*problem_, positions);
+  Result<Plane> q = symmetry_ != nullptr
+                        ? symmetricStart(*problem_, positions, *symmetry_, pattern_, factor_)
+                        : unfoldedStart(*problem_, positions, hold, pattern_, factor_);
+  if (!q) return q.error();
+  bending_.emplace(*problem_, pattern_, cornerAngles(*problem_, *q));
+  newton_.emplace(std::vector<EnergyTerm*>{&strain_, &*bending_}, lengths_, pattern_, factor_,
+                  std::vector{hold}, problem_->area);
+  solution_ = {};
+  solution_.state.q = *std::move(q);
+  solution_.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.count()));
+  solution_.wireStiffness = options_.wireStiffness;
+  return {};
+}
+
+double LeastStrain::stiffen() {
+  const double waveLength = solution_.wireStiffness * std::sqrt(problem_->area);
+  bending_->setStiffness(waveLength * waveLength * waveLength);
+  return bucklingLoad(options_.areaWeight, waveLength);
+}
+
+/// Finds the plane; raises the stiffness of the wires while they would wave or cross.
+Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
+  if (Result<void> started = start(piece); !started) return started.error();
+  Solution& solution = solution_;
+  const double highest = std::max(kMaxRaisedStiffness, options_.wireStiffness);
+  std::optional<Solution> crossed;  // the first one, to come back to when parting does not help
+  int partings = 0;
+  for (int round = 0;; ++round) {
+    const double load = stiffen();
+    const NewtonEnd end =
+        newton_->minimise(solution.state, {.maxSteps = options_.maxSteps}, progress);
+    if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
+    solution.finished = end == NewtonEnd::Converged;
+    solution.stable = solution.finished && newton_->lastStepWasConvex();
+    const bool failed =
+        end == NewtonEnd::Stalled ||
+        lengths_.worst(lengths_.residual(solution.state.q)) > kNearEnoughToProject ||
+        newton_->project(solution.state) > kExact;
+    if (failed && !crossed) return infeasible(piece, *problem_, solution.state.q, lengths_);
+    solution.crossings = findCrossings(*problem_, solution.state.q);
+    if (crossed && (failed || (!solution.crossings.empty() && partings == kMaxPartings))) {
+      crossed->state.steps = solution.state.steps;
+      solution = *std::move(crossed);
+      bending_->moveTo(solution.state.q);
+      break;
+    }
+    solution.buckling = load > 0 ? highestCompression(*problem_, solution.state.lambda) / load : 0;
+    if (round == kMaxStiffenings || !solution.finished || solution.wireStiffness == 0) break;
+    if (!solution.crossings.empty()) {
+      if (!crossed) crossed = solution;
+      ++partings;
+      solution.wireStiffness *= 2;
+    } else if (!crossed && solution.buckling > kBucklingLimit && solution.wireStiffness < highest) {
+      solution.wireStiffness = std::min(highest, solution.wireStiffness * solution.buckling);
+    } else {
+      break;
+    }
+  }
+  solution.meanEnergy = strain_.energy(solution.state.q) / problem_->area;
+  if (!solution.stable) solution.stable = newton_->isStableAt(solution.state);
+  return solution;
+}
+
+Result<Solution> LeastStrain::preview(const Piece& piece, Progress* progress) {
+  if (!newton_) {
+    if (Result<void> started = start(piece); !started) return started.error();
+  }
+  solution_.state.steps = 0;
+  const double load = stiffen();
+  const NewtonEnd end = newton_->minimise(solution_.state, kPreview, progress);
+  if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
+  newton_->projectRoughly(solution_.state);
+  const double buckling = highestCompression(*problem_, solution_.state.lambda) / load;
+  if (load > 0 && buckling > kBucklingLimit) {
+    solution_.wireStiffness =
+        std::min(kMaxRaisedStiffness, solution_.wireStiffness * std::min(2.0, buckling));
+  }
+  return solution_;
+}
+
+}  // namespace toile::unfolding

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <utility>
+#include <vector>
+
+#include "toile/unfold/unfold.h"
+#include "unfold/constrained_newton.h"
+
+namespace toile::unfolding {
+
+/// Wires wave when their compression passes this share of the buckling load (measured: smooth up to
+/// 1.06 at the least favourable piece).
+inline constexpr double kBucklingLimit = 1.05;
+
+/// What a solver found, and what is worth telling of it.
+struct Solution {
+  NewtonState state;
+  double wireStiffness = 0;
+  double buckling = 0;  ///< highest compression as a share of the buckling load
+  bool finished = true;
+  bool stable = true;
+  double wireBending = 0;  ///< J
+  double meanEnergy = 0;   ///< per area, of the strain alone
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
+};
+
+[[nodiscard]] std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
+                                                const UnfoldOptions& options,
+                                                const Solution& solution, const FlatPiece& flat);
+
+/// LengthsInfeasible, with the wires of the greatest length errors: curves first, then edges.
+[[nodiscard]] Error infeasible(const Piece& piece, const Problem& problem, const Plane& q,
+                               const WireLengths& lengths);
+
+}  // namespace toile::unfolding
