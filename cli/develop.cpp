@@ -115,9 +115,9 @@ int run(Arguments& arguments, const Session& session) {
   const std::vector<Eigen::Vector3d>& at = developed->piece.mesh->positions();
   const auto own = static_cast<std::ptrdiff_t>(file->mesh.vertexCount());
   const Mesh shaped = file->mesh.withPositions({at.begin(), at.begin() + own});
-  const Result<void> written = writeFileWhole(
-      arguments.out, writePatchObj(shaped, file->chains, targetsOn(*file, shaped),
-                                   developed->piece, *developed->flat));
+  const Result<void> written =
+      writeFileWhole(arguments.out, writePatchObj(shaped, file->chains, targetsOn(*file, shaped),
+                                                  developed->piece, *developed->flat));
   if (!written) return fail(written.error());
   if (session.json) {
     std::fputs(toJson(*developed).c_str(), stdout);
@@ -135,9 +135,9 @@ int run(Arguments& arguments, const Session& session) {
 
 void addDevelop(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<Arguments>();
-  CLI::App* command = addCommand(
-      app, session, "develop", "Bend one surface patch, border held, so that it lies flat better",
-      [arguments, &session] { return run(*arguments, session); });
+  CLI::App* command = addCommand(app, session, "develop",
+                                 "Bend one surface patch, border held, so that it lies flat better",
+                                 [arguments, &session] { return run(*arguments, session); });
   command->add_option("IN", arguments->in, "Model file of the patch; chains (`l`) become wires")
       ->required();
   command
@@ -145,19 +145,19 @@ void addDevelop(CLI::App& app, Session& session) {
                    "OBJ file to write: the processed patch, with `vt` in mm")
       ->required()
       ->type_name("FILE");
-  CLI::Option* amount =
-      command
-          ->add_option("-t,--amount", arguments->options.amount,
-                       "How far to go, 0 (not at all) to 1 (default)")
-          ->check(CLI::Range(0.0, 1.0))
-          ->type_name("T");
+  CLI::Option* amount = command
+                            ->add_option("-t,--amount", arguments->options.amount,
+                                         "How far to go, 0 (not at all) to 1 (default)")
+                            ->check(CLI::Range(0.0, 1.0))
+                            ->type_name("T");
   addParsed(*command, "--max-area-error", arguments->options.maxAreaError, parseRatio,
             "Go only as far as this mean area error in the plane needs, such as 3%")
       ->excludes(amount)
       ->type_name("RATIO");
-  CLI::Option* outside = command->add_option("--outside-of", arguments->outsideOf,
-                                             "A body that the patch must not enter")
-                             ->type_name("MODEL");
+  CLI::Option* outside =
+      command
+          ->add_option("--outside-of", arguments->outsideOf, "A body that the patch must not enter")
+          ->type_name("MODEL");
   addParsed(*command, "--gap", arguments->options.gap, parseLength,
             "Least distance from that body (default 0mm)")
       ->needs(outside)

@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "toile/core/file.h"
+#include "toile/develop/darts.h"
 #include "toile/mesh/mesh_file.h"
 
 namespace toile::cli {
@@ -20,7 +21,18 @@ struct UnfoldArguments {
   std::filesystem::path in, out;
   std::string objective = "least-strain";
   UnfoldOptions options;
+  std::optional<Ratio> autoDart;
 };
+
+/// Of a patch whose faces were re-cut: the face of IN that each comes from, in their order.
+std::string sourceFaces(const Patch& patch) {
+  std::string out;
+  for (const FaceId f : patch.sourceFace.values())
+    out += fmt::format("# source-face {}\n", f.index() + 1);
+  return out;
+}
+
+int runAutoDart(const UnfoldArguments& arguments, const MeshFile& file, const Session& session);
 
 std::string toJson(const FlatPiece& flat, std::size_t faces) {
   nlohmann::ordered_json json = {
@@ -45,6 +57,19 @@ std::string toJson(const FlatPiece& flat, std::size_t faces) {
   return json.dump(2) + "\n";
 }
 
+void print(const UnfoldArguments& arguments, const FlatPiece& flat, std::size_t faces,
+           const Session& session) {
+  if (session.json) {
+    std::fputs(toJson(flat, faces).c_str(), stdout);
+    return;
+  }
+  fmt::print(
+      "{}: {} faces, area error {:.2f} % on average and {:.1f} % at most, wire lengths "
+      "within {:.1e}, {} flipped, {} crossings\n",
+      arguments.out.string(), faces, 100 * flat.meanAreaError, 100 * flat.maxAreaError,
+      flat.check.maxLengthError, flat.check.flippedFaces, flat.check.crossings);
+}
+
 int runUnfold(const UnfoldArguments& arguments, const Session& session) {
   if (arguments.objective == "wirewarping") {
     return fail({ErrorCode::Unsupported,
@@ -55,6 +80,7 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
   const std::string name = arguments.in.string();
   const Result<MeshFile> file = readMesh(arguments.in, {.unit = session.units});
   if (!file) return fail(file.error());
+  if (arguments.autoDart) return runAutoDart(arguments, *file, session);
   const Result<Piece> piece =
       makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
   if (!piece) return fail(piece.error().during(name));
@@ -66,16 +92,29 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
 
   std::vector<Finding> findings = file->findings;
   findings.insert(findings.end(), flat->findings.begin(), flat->findings.end());
-  if (session.json) {
-    std::fputs(toJson(*flat, file->mesh.faceCount()).c_str(), stdout);
-  } else {
+  print(arguments, *flat, file->mesh.faceCount(), session);
+  return report(findings, session);
+}
+
+int runAutoDart(const UnfoldArguments& arguments, const MeshFile& file, const Session& session) {
+  const Result<AutoDart> made =
+      autoDart({file.mesh, file.chains, file.targets, {}}, arguments.in.stem().string(),
+               *arguments.autoDart, {.unfold = arguments.options});
+  if (!made) return fail(made.error().during(arguments.in.string()));
+  const Patch& patch = made->patch;
+  const std::string text =
+      writePatchObj(patch.mesh, patch.chains, patch.targets, made->piece, *made->flat);
+  const Result<void> written = writeFileWhole(arguments.out, text + sourceFaces(patch));
+  if (!written) return fail(written.error());
+  print(arguments, *made->flat, patch.mesh.faceCount(), session);
+  if (!session.json) {
     fmt::print(
-        "{}: {} faces, area error {:.2f} % on average and {:.1f} % at most, wire lengths "
-        "within {:.1e}, {} flipped, {} crossings\n",
-        arguments.out.string(), file->mesh.faceCount(), 100 * flat->meanAreaError,
-        100 * flat->maxAreaError, flat->check.maxLengthError, flat->check.flippedFaces,
-        flat->check.crossings);
+        "  before: {:.2f} %; the lengths alone force {:.2f} %, {:.2f} % was to be expected\n",
+        100 * made->errorBefore, 100 * made->forced.bound, 100 * made->forced.estimate);
   }
+  std::vector<Finding> findings = file.findings;
+  findings.insert(findings.end(), made->findings.begin(), made->findings.end());
+  findings.insert(findings.end(), made->flat->findings.begin(), made->flat->findings.end());
   return report(findings, session);
 }
 
@@ -101,6 +140,9 @@ void addUnfold(CLI::App& app, Session& session) {
                    "Price of area change against shear, 0 to 1000 (default 2)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("K");
+  addParsed(*command, "--auto-dart", arguments->autoDart, parseRatio,
+            "Put in darts until the mean area error is at most this, such as 5%")
+      ->type_name("RATIO");
 }
 
 }  // namespace toile::cli

@@ -15,7 +15,9 @@ using testing::HasSubstr;
 
 class DevelopCommand : public testing::Test {
  protected:
-  void SetUp() override { writeText(in_, writeObj(saddle(10)) + "g wire_feature_mid\nl 6 17 28\n"); }
+  void SetUp() override {
+    writeText(in_, writeObj(saddle(10)) + "g wire_feature_mid\nl 6 17 28\n");
+  }
   [[nodiscard]] ProgramResult run(const std::vector<std::string>& more) const {
     std::vector<std::string> words{TOILE_EXECUTABLE, "develop", in_.string(), "-o", out_.string()};
     words.insert(words.end(), more.begin(), more.end());

@@ -114,8 +114,8 @@ class WishedLengths {
       const Vector3d weights = barycentricIn(model, point, face);
       Vector3d normal = Vector3d::Zero();
       for (Eigen::Index k = 0; k < 3; ++k) {
-        normal += weights[k] *
-                  modelNormals[model.vertices(face)[static_cast<std::size_t>(k)].index()];
+        normal +=
+            weights[k] * modelNormals[model.vertices(face)[static_cast<std::size_t>(k)].index()];
       }
       normal_.push_back(normal.normalized());
       offset_.push_back(mesh.position(VertexId(v)) + wish.offset * normal_.back());
@@ -135,9 +135,9 @@ class WishedLengths {
     const Vector3d& b = offset_[t[1].index()];
     const Vector3d& c = offset_[t[2].index()];
     const Vector3d normal = (b - a).cross(c - a).normalized();
-    const Vector3d middle = (piece_.mesh->position(t[0]) + piece_.mesh->position(t[1]) +
-                             piece_.mesh->position(t[2])) /
-                            3;
+    const Vector3d middle =
+        (piece_.mesh->position(t[0]) + piece_.mesh->position(t[1]) + piece_.mesh->position(t[2])) /
+        3;
     return {eased(b - a, normal, middle), eased(c - b, normal, middle),
             eased(a - c, normal, middle)};
   }
@@ -170,7 +170,8 @@ Result<void> applyEase(const Document& document, RefinedMesh& refined,
                        std::vector<PieceBuild>& builds) {
   std::vector<Wish> wishes;
   for (const PieceBuild& build : builds) wishes.push_back(wishOf(*document.design, build.piece));
-  if (std::all_of(wishes.begin(), wishes.end(), [](const Wish& w) { return w.isNone(); })) return {};
+  if (std::all_of(wishes.begin(), wishes.end(), [](const Wish& w) { return w.isNone(); }))
+    return {};
 
   const Mesh& model = *document.model->mesh;
   const std::vector<Vector3d> modelNormals = vertexNormals(model);
@@ -185,8 +186,8 @@ Result<void> applyEase(const Document& document, RefinedMesh& refined,
     for (const Wire& wire : piece.wires) {
       for (std::size_t e = 0; e < wire.cutEdges.size(); ++e) {
         Sum& sum = sums[wire.cutEdges[e].index()];
-        sum.lengths += isPlain ? wire.bodyLength[e]
-                               : wished.edge(wire.vertices[e], wire.vertices[e + 1]);
+        sum.lengths +=
+            isPlain ? wire.bodyLength[e] : wished.edge(wire.vertices[e], wire.vertices[e + 1]);
         ++sum.count;
       }
     }

@@ -27,7 +27,7 @@ Positions vertexNormals(const Mesh& mesh, const Positions& at) {
   return normals;
 }
 
-InnerVertices::InnerVertices(const Mesh& mesh) : number(mesh.vertexCount(), -1) {
+FreeVertices::FreeVertices(const Mesh& mesh) : number(mesh.vertexCount(), -1) {
   for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
     if (mesh.isBorder(VertexId(i))) continue;
     number[VertexId(i)] = static_cast<std::int32_t>(vertices.size());
@@ -35,7 +35,16 @@ InnerVertices::InnerVertices(const Mesh& mesh) : number(mesh.vertexCount(), -1) 
   }
 }
 
-Eigen::VectorXd defects(const Mesh& mesh, const InnerVertices& inner, const Positions& at) {
+FreeVertices::FreeVertices(const Mesh& mesh, const VertexData<char>& isHeld)
+    : number(mesh.vertexCount(), -1) {
+  for (std::size_t i = 0; i < mesh.vertexCount(); ++i) {
+    if (isHeld[VertexId(i)] != 0) continue;
+    number[VertexId(i)] = static_cast<std::int32_t>(vertices.size());
+    vertices.emplace_back(i);
+  }
+}
+
+Eigen::VectorXd defects(const Mesh& mesh, const FreeVertices& inner, const Positions& at) {
   Eigen::VectorXd defect = Eigen::VectorXd::Constant(inner.count(), 2 * std::numbers::pi);
   for (const Triangle& t : mesh.triangles()) {
     for (std::size_t k = 0; k < 3; ++k) {
@@ -49,7 +58,7 @@ Eigen::VectorXd defects(const Mesh& mesh, const InnerVertices& inner, const Posi
   return defect;
 }
 
-Eigen::SparseMatrix<double> angleSumGradient(const Mesh& mesh, const InnerVertices& inner,
+Eigen::SparseMatrix<double> angleSumGradient(const Mesh& mesh, const FreeVertices& inner,
                                              const Positions& at, const Positions& direction) {
   std::vector<Eigen::Triplet<double>> entries;
   entries.reserve(9 * mesh.faceCount());

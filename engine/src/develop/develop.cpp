@@ -33,7 +33,8 @@ Result<void> checkOptions(const DevelopOptions& options) {
     return refuse("the amount t", options.amount, "0..1");
   }
   if (options.maxAreaError && !(options.maxAreaError->value() > 0)) {
-    return refuse("the greatest mean area error", options.maxAreaError->value(), "0..1, 0 excluded");
+    return refuse("the greatest mean area error", options.maxAreaError->value(),
+                  "0..1, 0 excluded");
   }
   if (!(options.gap.mm() >= 0 && options.gap.mm() <= 1000)) {
     return refuse("the gap in mm", options.gap.mm(), "0..1000");
@@ -53,6 +54,15 @@ Piece inShape(const Piece& piece, const Positions& at) {
       if (piece.mesh->isBorder(edge)) continue;
       const double length = shaped.mesh->length(edge), before = piece.mesh->length(edge);
       if (length != before) wire.targetLength[i] *= length / before;
+    }
+  }
+  if (!piece.targetSides.empty()) {
+    for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) {
+      for (int k = 0; k < 3; ++k) {
+        const EdgeId edge = piece.mesh->edge(piece.mesh->halfedge(FaceId(f), k));
+        shaped.targetSides[FaceId(f)][static_cast<std::size_t>(k)] *=
+            shaped.mesh->length(edge) / piece.mesh->length(edge);
+      }
     }
   }
   return shaped;
@@ -139,7 +149,7 @@ DevelopReport makeReport(const Piece& piece, const FlatPiece& flatBefore, const 
   const Mesh& after = *trial.piece.mesh;
   report.errorBefore = flatBefore.meanAreaError;
   report.errorAgainstProcessed = trial.flat->meanAreaError;
-  report.errorAgainstOriginal = meanAreaError(before, *trial.flat);
+  report.errorAgainstOriginal = meanAreaError(piece, *trial.flat);
   const auto measure = [](const Mesh& mesh, double& greatest, double& total) {
     const VertexData<double> defects = angleDefects(mesh);
     for (const double defect : defects.values()) {
@@ -202,7 +212,7 @@ std::string whyStopped(ShapeEnd end) {
 }  // namespace
 
 VertexData<double> angleDefects(const Mesh& mesh) {
-  const InnerVertices inner(mesh);
+  const FreeVertices inner(mesh);
   const Eigen::VectorXd defect = defects(mesh, inner, mesh.positions());
   VertexData<double> all(mesh.vertexCount(), 0.0);
   for (Eigen::Index i = 0; i < inner.count(); ++i) {
@@ -211,13 +221,14 @@ VertexData<double> angleDefects(const Mesh& mesh) {
   return all;
 }
 
-double meanAreaError(const Mesh& mesh, const FlatPiece& flat) {
+double meanAreaError(const Piece& piece, const FlatPiece& flat) {
+  const Mesh& mesh = *piece.mesh;
   double error = 0, total = 0;
   for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
     const Triangle& t = mesh.vertices(FaceId(f));
     const Eigen::Vector2d u = flat.position[t[1]] - flat.position[t[0]];
     const Eigen::Vector2d w = flat.position[t[2]] - flat.position[t[0]];
-    const double area = mesh.area(FaceId(f));
+    const double area = areaOf(targetSides(piece, FaceId(f)));
     error += std::abs(0.5 * (u.x() * w.y() - u.y() * w.x()) - area);
     total += area;
   }
@@ -243,10 +254,9 @@ Result<DevelopedPiece> develop(const Piece& piece, const DevelopOptions& options
     Shape shape = findDevelopableShape(*piece.mesh, options, progress);
     if (shape.end == ShapeEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
     const Interpolation way(piece, options, std::move(shape.at));
-    Result<Trial> found =
-        options.maxAreaError
-            ? way.search(*std::move(before), options.maxAreaError->value(), progress)
-            : way.at(options.amount, progress);
+    Result<Trial> found = options.maxAreaError ? way.search(*std::move(before),
+                                                            options.maxAreaError->value(), progress)
+                                               : way.at(options.amount, progress);
     if (!found) return found.error();
     chosen = *std::move(found);
     if (options.maxAreaError && !isEnough(*chosen.flat)) {
@@ -255,11 +265,12 @@ Result<DevelopedPiece> develop(const Piece& piece, const DevelopOptions& options
            fmt::format("the surface cannot be processed to {:.3g} % area error: {:.3g} % is the "
                        "least that was found, at t = {:.2f}{}{}; a dart or a seam is needed",
                        options.maxAreaError->percent(), 100 * chosen.flat->meanAreaError,
-                       chosen.amount, shape.end == ShapeEnd::Developable ? "" : ", since beyond it ",
+                       chosen.amount,
+                       shape.end == ShapeEnd::Developable ? "" : ", since beyond it ",
                        whyStopped(shape.end)),
            {}});
-    } else if (!options.maxAreaError && shape.end != ShapeEnd::Developable &&
-               options.amount == 1 && chosen.flat->meanAreaError > kNearlyFlat) {
+    } else if (!options.maxAreaError && shape.end != ShapeEnd::Developable && options.amount == 1 &&
+               chosen.flat->meanAreaError > kNearlyFlat) {
       developed.findings.push_back(
           {"develop-stopped",
            fmt::format("the surface is not developable yet, {:.2g} % area error is left: {}",

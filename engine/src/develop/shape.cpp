@@ -8,6 +8,8 @@
 #include <limits>
 #include <numbers>
 
+#include "develop/curvature_potential.h"
+
 // Notation: u = motion of the inner vertices along their normals, mm; d = 2 pi - angle sum; A = how
 // the angle sums answer to u; M = vertex areas; S = stiffness (cotangents) with the border held;
 // phi = S^-1 d, the logarithm of the scale by which a conformal map with unchanged boundary lengths
@@ -28,8 +30,6 @@ constexpr double kMaxEdgeChange = 0.3;
 /// Vertices that come to such a limit are held; with more than this share the processing ends.
 constexpr double kMaxHeld = 0.05;
 constexpr double kHoldPrice = 1e8;
-/// Vertices with less area than this share of the mean belong to slivers.
-constexpr double kLeastArea = 0.3;
 /// Edges shorter than this share of the mean are slivers of a cut and tell nothing of the shape.
 constexpr double kShortEdge = 0.25;
 /// How much rougher (root mean square of the angles between faces) the surface may become, and the
@@ -49,51 +49,6 @@ constexpr double kLinkPrice = 1e2;
 constexpr double kLeastGain = 0.01;
 /// Root mean square of phi at which nothing is left to do: 0.02 % of area.
 constexpr double kFlatEnough = 1e-4;
-
-double cotangent(const Vector3d& u, const Vector3d& w) {
-  return u.dot(w) / std::max(u.cross(w).norm(), 1e-300);
-}
-
-/// Areas of the vertices (a third of their faces), of the inner ones.
-VectorXd vertexAreas(const Mesh& mesh, const InnerVertices& inner) {
-  VectorXd area = VectorXd::Zero(inner.count());
-  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
-    for (const VertexId v : mesh.vertices(FaceId(f))) {
-      if (inner.number[v] >= 0) area[inner.number[v]] += mesh.area(FaceId(f)) / 3;
-    }
-  }
-  // Slivers left by a cut must not outweigh the rest.
-  return area.cwiseMax(kLeastArea * area.mean());
-}
-
-/// S: integral of grad u . grad v for functions that are 0 on the border.
-SparseMatrix makeStiffness(const Mesh& mesh, const InnerVertices& inner) {
-  // Slivers have cotangents without limit; this one belongs to an angle of 6 degrees. Edges whose
-  // weight would be negative would lose the maximum principle.
-  constexpr double kMaxCotangent = 10;
-  EdgeData<double> weight(mesh.edgeCount(), 0.0);
-  for (std::size_t h = 0; h < mesh.halfedgeCount(); ++h) {
-    const HalfedgeId side{h};
-    const Vector3d& tip = mesh.position(mesh.from(mesh.previous(side)));
-    weight[mesh.edge(side)] += 0.5 * cotangent(mesh.position(mesh.from(side)) - tip,
-                                               mesh.position(mesh.to(side)) - tip);
-  }
-  std::vector<Eigen::Triplet<double>> entries;
-  for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
-    const double w = std::clamp(weight[EdgeId(e)], 1e-3, kMaxCotangent);
-    const std::int32_t i = inner.number[mesh.tail(EdgeId(e))];
-    const std::int32_t j = inner.number[mesh.head(EdgeId(e))];
-    if (i >= 0) entries.emplace_back(i, i, w);
-    if (j >= 0) entries.emplace_back(j, j, w);
-    if (i >= 0 && j >= 0) {
-      entries.emplace_back(i, j, -w);
-      entries.emplace_back(j, i, -w);
-    }
-  }
-  SparseMatrix stiffness(inner.count(), inner.count());
-  stiffness.setFromTriplets(entries.begin(), entries.end());
-  return stiffness;
-}
 
 Vector3d faceNormal(const Mesh& mesh, const Positions& at, std::size_t f) {
   const Triangle& t = mesh.vertices(FaceId(f));
@@ -286,7 +241,7 @@ class ShapeSearch {
 
   const Mesh& mesh_;
   const DevelopOptions& options_;
-  InnerVertices inner_;
+  FreeVertices inner_;
   VectorXd area_;
   SparseMatrix stiffness_;
   SparseMatrix bending_;

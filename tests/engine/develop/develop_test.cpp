@@ -55,7 +55,7 @@ void expectBorderUnmoved(const Piece& before, const Piece& after) {
 
 TEST(Develop, GradientOfAngleSumsAgreesWithDifferences) {
   const Mesh mesh = test::saddle(6, 10, 0.02);
-  const developing::InnerVertices inner(mesh);
+  const developing::FreeVertices inner(mesh);
   const developing::Positions normals = developing::vertexNormals(mesh, mesh.positions());
   const Eigen::MatrixXd gradient =
       developing::angleSumGradient(mesh, inner, mesh.positions(), normals);
@@ -173,14 +173,13 @@ TEST(Develop, StaysOutsideTheBody) {
     double least = 1e300;
     for (std::size_t i = 0; i < developed.piece.mesh->vertexCount(); ++i) {
       if (developed.piece.mesh->isBorder(VertexId(i))) continue;
-      least = std::min(least, developing::signedDistance(
-                                  *index, developed.piece.mesh->positions()[i]));
+      least =
+          std::min(least, developing::signedDistance(*index, developed.piece.mesh->positions()[i]));
     }
     return least;
   };
   ASSERT_LT(nearest(*free), 0) << "without the body the patch goes inwards";
-  const Result<DevelopedPiece> held =
-      develop(piece, {.outsideOf = index, .gap = Length::mm(1)});
+  const Result<DevelopedPiece> held = develop(piece, {.outsideOf = index, .gap = Length::mm(1)});
   ASSERT_TRUE(held) << held.error();
   EXPECT_GE(nearest(*held), 1 - 1e-9);
   EXPECT_EQ(*held->report.clearance, nearest(*held));

@@ -45,9 +45,9 @@ struct DevelopReport {
   double totalDefect = 0;
   double roughnessBefore = 0;  ///< radians: root mean square of the angles between neighbour faces
   double roughness = 0;
-  double maxNormalTurn = 0;        ///< radians, of a face against the piece as it was
-  double maxMove = 0;              ///< mm, of a vertex
-  double maxFeatureChange = 0;     ///< share of a feature's length, of the worst one
+  double maxNormalTurn = 0;         ///< radians, of a face against the piece as it was
+  double maxMove = 0;               ///< mm, of a vertex
+  double maxFeatureChange = 0;      ///< share of a feature's length, of the worst one
   std::optional<double> clearance;  ///< mm: least signed distance to `outsideOf`
   std::vector<FeatureChange> features;
 };
@@ -71,7 +71,8 @@ struct DevelopedPiece {
 /// norm being that of a bent plate, in small partial targets. A surface without angle defect can
 /// still be creased like paper: the processing stops before the angles between neighbour faces
 /// grow rougher than a smooth surface needs, before a face turns by more than 60 degrees and before
-/// an edge changes by more than 30 %. The result is M + t (M' - M) for the last shape M' it reached.
+/// an edge changes by more than 30 %. The result is M + t (M' - M) for the last shape M' it
+/// reached.
 ///
 /// @param piece a disk, possibly with holes.
 /// @return the processed piece, its plane and what was done to it, or InvalidArgument for an option
@@ -82,7 +83,7 @@ struct DevelopedPiece {
 Result<DevelopedPiece> develop(const Piece& piece, const DevelopOptions& options = {},
                                Progress* progress = nullptr);
 
-/// Mean area error of a plane against the faces of a mesh on the same connectivity.
-[[nodiscard]] double meanAreaError(const Mesh& mesh, const FlatPiece& flat);
+/// Area-weighted mean of |A2/A3 - 1| of a plane against the faces of a piece.
+[[nodiscard]] double meanAreaError(const Piece& piece, const FlatPiece& flat);
 
 }  // namespace toile
