@@ -38,8 +38,8 @@ Eigen::SparseMatrix<double> makeStiffness(const Mesh& mesh, const FreeVertices& 
   for (std::size_t h = 0; h < mesh.halfedgeCount(); ++h) {
     const HalfedgeId side{h};
     const Vector3d& tip = mesh.position(mesh.from(mesh.previous(side)));
-    weight[mesh.edge(side)] += 0.5 * cotangent(mesh.position(mesh.from(side)) - tip,
-                                               mesh.position(mesh.to(side)) - tip);
+    weight[mesh.edge(side)] +=
+        0.5 * cotangent(mesh.position(mesh.from(side)) - tip, mesh.position(mesh.to(side)) - tip);
   }
   std::vector<Eigen::Triplet<double>> entries;
   for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {

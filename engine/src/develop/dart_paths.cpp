@@ -54,8 +54,9 @@ class PathFinder {
         addCut(apex, ways, candidates);
       }
     }
-    std::stable_sort(candidates.begin(), candidates.end(),
-                     [](const Candidate& a, const Candidate& b) { return a.errorLeft < b.errorLeft; });
+    std::stable_sort(
+        candidates.begin(), candidates.end(),
+        [](const Candidate& a, const Candidate& b) { return a.errorLeft < b.errorLeft; });
     return candidates;
   }
 
@@ -78,11 +79,20 @@ class PathFinder {
     std::stable_sort(found.begin(), found.end(), [&](VertexId a, VertexId b) {
       return std::abs(potential_[a]) > std::abs(potential_[b]);
     });
-    while (!found.empty() && (found.size() > kApexes || std::abs(potential_[found.back()]) <
-                                                            kLeastBulge * std::abs(potential_[found.front()]))) {
-      found.pop_back();
+    // Bulges and saddles are counted apart: a deep saddle must not hide a bulge.
+    std::vector<VertexId> kept;
+    for (const double sign : {1.0, -1.0}) {
+      double greatest = 0;
+      std::size_t count = 0;
+      for (const VertexId v : found) {
+        const double bulge = sign * potential_[v];
+        if (bulge <= 0 || bulge < kLeastBulge * greatest || count == kApexes) continue;
+        greatest = std::max(greatest, bulge);
+        kept.push_back(v);
+        ++count;
+      }
     }
-    return found;
+    return kept;
   }
 
   /// Boundary vertices at which a dart may begin, with their place along their loop.
@@ -94,7 +104,8 @@ class PathFinder {
       double length = 0;
       for (const HalfedgeId h : loop) {
         along_[mesh_.from(h)] = length;
-        if (std::abs(angleOfCloth(mesh_.from(h)) - std::numbers::pi) > kCorner) corners.push_back(length);
+        if (std::abs(angleOfCloth(mesh_.from(h)) - std::numbers::pi) > kCorner)
+          corners.push_back(length);
         length += mesh_.length(mesh_.edge(h));
       }
       for (const HalfedgeId h : loop) {
@@ -214,7 +225,8 @@ class PathFinder {
   }
 
   /// The first two ways that come from different sides, joined at the apex.
-  void addCut(VertexId apex, const std::vector<SurfacePath>& ways, std::vector<Candidate>& out) const {
+  void addCut(VertexId apex, const std::vector<SurfacePath>& ways,
+              std::vector<Candidate>& out) const {
     for (std::size_t i = 1; i < ways.size(); ++i) {
       const Eigen::Vector3d first = directionAtEnd(ways[0]), other = directionAtEnd(ways[i]);
       if (first.dot(other) > -0.5) continue;  // less than 120 degrees apart
@@ -240,14 +252,16 @@ class PathFinder {
     cut.points.push_back(path.points.front());
     double left = wanted;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-      const double step = (position(mesh_, path.points[i + 1]) - position(mesh_, path.points[i])).norm();
+      const double step =
+          (position(mesh_, path.points[i + 1]) - position(mesh_, path.points[i])).norm();
       const FaceId face = path.faceOfSegment[i];
       cut.faceOfSegment.push_back(face);
       if (step >= left) {
         const double t = left / step;
-        cut.points.push_back(makeSurfacePoint(
-            mesh_, face,
-            (1 - t) * barycentricIn(mesh_, path.points[i], face) + t * barycentricIn(mesh_, path.points[i + 1], face)));
+        cut.points.push_back(
+            makeSurfacePoint(mesh_, face,
+                             (1 - t) * barycentricIn(mesh_, path.points[i], face) +
+                                 t * barycentricIn(mesh_, path.points[i + 1], face)));
         return cut;
       }
       left -= step;

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "develop/dart_paths.h"
 #include "develop/patch.h"
@@ -38,7 +39,8 @@ Result<void> checkOptions(const DartOptions& options) {
     return {};
   }
   return Error{ErrorCode::InvalidArgument,
-               "dart options: 1 to 16 proposals, a distance of the tip of 0 mm or more", {}};
+               "dart options: 1 to 16 proposals, a distance of the tip of 0 mm or more",
+               {}};
 }
 
 }  // namespace
@@ -87,9 +89,10 @@ Result<std::vector<DartProposal>> adviseDarts(const Piece& piece, const FlatPiec
       proposals.push_back(std::move(proposal));
     }
   }
+  // A cut makes two pieces of one: nobody wants it where a dart does.
   std::stable_sort(proposals.begin(), proposals.end(),
                    [](const DartProposal& a, const DartProposal& b) {
-                     return a.errorAfter < b.errorAfter;
+                     return std::pair(a.kind, a.errorAfter) < std::pair(b.kind, b.errorAfter);
                    });
   return proposals;
 }
@@ -126,10 +129,11 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
     }
     const DartProposal& best = proposals->front();
     if (best.kind == DartProposal::Kind::Cut) {
-      stopBecause("needs-cut",
-                  "cloth is missing there (a saddle), where a dart would overlap: part the piece by "
-                  "a seam or sew in a gusset; " +
-                      describe(best));
+      stopBecause(
+          "needs-cut",
+          "cloth is missing there (a saddle), where a dart would overlap: part the piece by "
+          "a seam or sew in a gusset; " +
+              describe(best));
       break;
     }
     const std::string id = fmt::format("autodart-{}", made.darts.size() + 1);

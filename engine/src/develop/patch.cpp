@@ -56,8 +56,9 @@ void takeTargetSides(const Piece& from, const FaceData<FaceId>& source, Piece& t
     }
     for (std::size_t k = 0; k < 3; ++k) {
       const Eigen::Vector3d w = weights[(k + 1) % 3] - weights[k];
-      to.targetSides[FaceId(f)][k] = std::sqrt(std::max(
-          0.0, -(w[0] * w[1] * s[0] * s[0] + w[1] * w[2] * s[1] * s[1] + w[2] * w[0] * s[2] * s[2])));
+      to.targetSides[FaceId(f)][k] =
+          std::sqrt(std::max(0.0, -(w[0] * w[1] * s[0] * s[0] + w[1] * w[2] * s[1] * s[1] +
+                                    w[2] * w[0] * s[2] * s[2])));
     }
     bodyArea += mesh.area(FaceId(f));
     targetArea += areaOf(to.targetSides[FaceId(f)]);
@@ -114,8 +115,7 @@ Result<Patch> addDart(const Patch& patch, const Piece& piece, const SurfacePath&
       return Error{ErrorCode::CurveInvalid, "the dart \"" + id + "\" meets itself", {}};
     }
     if (neighbours[at].size() < 2) break;
-    const std::uint32_t next =
-        neighbours[at][0] == before ? neighbours[at][1] : neighbours[at][0];
+    const std::uint32_t next = neighbours[at][0] == before ? neighbours[at][1] : neighbours[at][0];
     before = std::exchange(at, next);
   }
   with.chains.push_back(std::move(chain));

@@ -37,23 +37,23 @@ struct DartProposal {
     Cut    ///< from boundary to boundary: where cloth is missing, a dart would overlap
   };
   Kind kind = Kind::Dart;
-  SurfacePath path;  ///< on the piece's mesh, a dart's from its mouth to its tip
-  VertexId apex;     ///< what it aims at
-  double length = 0;  ///< mm: of seam that is added
-  double intake = 0;  ///< mm: how wide the mouth opens in the plane; 0 for a cut
+  SurfacePath path;        ///< on the piece's mesh, a dart's from its mouth to its tip
+  VertexId apex;           ///< what it aims at
+  double length = 0;       ///< mm: of seam that is added
+  double intake = 0;       ///< mm: how wide the mouth opens in the plane; 0 for a cut
   double errorBefore = 0;  ///< mean area error
   double errorAfter = 0;   ///< of a dart measured by unfolding, of a cut estimated
 };
 
 struct DartOptions {
   UnfoldOptions unfold{};
-  std::size_t maxProposals = 3;  ///< 1..16: that are unfolded
+  std::size_t maxProposals = 6;  ///< 1..16: that are unfolded
   /// The tip stops before the apex by this, or by an eighth of the dart if that is less.
   Length tipDistance = Length::mm(15);
 };
 
-/// Darts for a piece that lies flat badly, the best first: those that lower the error most for
-/// their length. They start at the boundary, not near its corners, cross no line of the piece and
+/// Darts for a piece that lies flat badly, those that leave the least error first, and after them
+/// cuts. They start at the boundary, not near its corners, cross no line of the piece and
 /// run straight on the surface to where the curvature weighs most.
 ///
 /// @param flat of this piece.
