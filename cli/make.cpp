@@ -19,7 +19,7 @@ struct Arguments {
   std::filesystem::path design;
   std::optional<std::string> body;
   std::filesystem::path folder = "out";
-  bool autoCut = false;
+  MakeOptions options;
 };
 
 std::string describe(const Pattern& pattern, const Arguments& arguments) {
@@ -48,9 +48,7 @@ int run(const Arguments& arguments, const Session& session) {
   const Result<Document> document = openDocument(arguments.design, arguments.body, session.units);
   if (!document) return fail(document.error());
 
-  MakeOptions options;
-  options.autoCut = arguments.autoCut;
-  const Result<Pattern> pattern = makePattern(*document, options, nullptr, &progress);
+  const Result<Pattern> pattern = makePattern(*document, arguments.options, nullptr, &progress);
   if (!pattern) return fail(pattern.error());
   const Result<WrittenPattern> written = writePattern(*pattern, arguments.folder, &progress);
   if (!written) return fail(written.error());
@@ -82,8 +80,15 @@ void addMake(CLI::App& app, Session& session) {
   command->add_option("-o,--output", arguments->folder, "Folder for the files")
       ->type_name("DIR")
       ->capture_default_str();
-  command->add_flag("--auto-cut", arguments->autoCut,
+  command->add_flag("--auto-cut", arguments->options.autoCut,
                     "Cut tubes open along the shortest way, so that they can lie flat");
+  addParsed(*command, "--auto-dart", arguments->options.autoDart, parseRatio,
+            "Put darts into pieces whose mean area error is greater than this, such as 5%")
+      ->type_name("RATIO");
+  addParsed(*command, "--auto-develop", arguments->options.autoDevelop, parseRatio,
+            "Process pieces whose mean area error is greater than this, boundary held, until it is "
+            "not")
+      ->type_name("RATIO");
 }
 
 }  // namespace toile::cli

@@ -12,6 +12,7 @@
 
 #include "commands.h"
 #include "toile/core/file.h"
+#include "toile/develop/darts.h"
 #include "toile/mesh/mesh_file.h"
 
 namespace toile::cli {
@@ -23,7 +24,19 @@ struct UnfoldArguments {
   std::string weights = "length";
   std::string symmetry = "auto";
   UnfoldOptions options;
+  std::optional<Ratio> autoDart;
 };
+
+/// Of a patch whose faces were re-cut: the face of IN that each comes from, in their order.
+std::string sourceFaces(const Patch& patch) {
+  std::string out;
+  for (const FaceId f : patch.sourceFace.values())
+    out += fmt::format("# source-face {}\n", f.index() + 1);
+  return out;
+}
+
+int runAutoDart(const UnfoldArguments& arguments, const UnfoldOptions& options,
+                const MeshFile& file, const Session& session);
 
 std::string toJson(const FlatPiece& flat, std::size_t faces) {
   nlohmann::ordered_json json = {
@@ -49,6 +62,19 @@ std::string toJson(const FlatPiece& flat, std::size_t faces) {
   return json.dump(2) + "\n";
 }
 
+void print(const UnfoldArguments& arguments, const FlatPiece& flat, std::size_t faces,
+           const Session& session) {
+  if (session.json) {
+    std::fputs(toJson(flat, faces).c_str(), stdout);
+    return;
+  }
+  fmt::print(
+      "{}: {} faces, area error {:.2f} % on average and {:.1f} % at most, wire lengths "
+      "within {:.1e}, {} flipped, {} crossings\n",
+      arguments.out.string(), faces, 100 * flat.meanAreaError, 100 * flat.maxAreaError,
+      flat.check.maxLengthError, flat.check.flippedFaces, flat.check.crossings);
+}
+
 /// The piece with symmetric data if it is symmetric but not to rounding: that unfold() sees itself.
 std::optional<SymmetricPiece> nearlySymmetric(const Piece& piece, const UnfoldOptions& options) {
   constexpr double kTolerance = 0.005;
@@ -67,13 +93,14 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
   const std::string name = arguments.in.string();
   const Result<MeshFile> file = readMesh(arguments.in, {.unit = session.units});
   if (!file) return fail(file.error());
-  const Result<Piece> piece =
-      makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
-  if (!piece) return fail(piece.error().during(name));
   UnfoldOptions options = arguments.options;
   if (arguments.objective == "wirewarping") options.objective = UnfoldObjective::WireWarping;
   if (arguments.weights == "unit") options.weights = WireWeights::Unit;
   options.keepSymmetry = arguments.symmetry == "auto";
+  if (arguments.autoDart) return runAutoDart(arguments, options, *file, session);
+  const Result<Piece> piece =
+      makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
+  if (!piece) return fail(piece.error().during(name));
   const std::optional<SymmetricPiece> symmetric =
       options.keepSymmetry ? nearlySymmetric(*piece, options) : std::nullopt;
   const Result<FlatPiece> flat = symmetric ? unfold(*symmetric, options) : unfold(*piece, options);
@@ -95,16 +122,30 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
          {}});
   }
   findings.insert(findings.end(), flat->findings.begin(), flat->findings.end());
-  if (session.json) {
-    std::fputs(toJson(*flat, file->mesh.faceCount()).c_str(), stdout);
-  } else {
+  print(arguments, *flat, file->mesh.faceCount(), session);
+  return report(findings, session);
+}
+
+int runAutoDart(const UnfoldArguments& arguments, const UnfoldOptions& options,
+                const MeshFile& file, const Session& session) {
+  const Result<AutoDart> made =
+      autoDart({file.mesh, file.chains, file.targets, {}}, arguments.in.stem().string(),
+               *arguments.autoDart, {.unfold = options});
+  if (!made) return fail(made.error().during(arguments.in.string()));
+  const Patch& patch = made->patch;
+  const std::string text =
+      writePatchObj(patch.mesh, patch.chains, patch.targets, made->piece, *made->flat);
+  const Result<void> written = writeFileWhole(arguments.out, text + sourceFaces(patch));
+  if (!written) return fail(written.error());
+  print(arguments, *made->flat, patch.mesh.faceCount(), session);
+  if (!session.json) {
     fmt::print(
-        "{}: {} faces, area error {:.2f} % on average and {:.1f} % at most, wire lengths "
-        "within {:.1e}, {} flipped, {} crossings\n",
-        arguments.out.string(), file->mesh.faceCount(), 100 * flat->meanAreaError,
-        100 * flat->maxAreaError, flat->check.maxLengthError, flat->check.flippedFaces,
-        flat->check.crossings);
+        "  before: {:.2f} %; the lengths alone force {:.2f} %, {:.2f} % was to be expected\n",
+        100 * made->errorBefore, 100 * made->forced.bound, 100 * made->forced.estimate);
   }
+  std::vector<Finding> findings = file.findings;
+  findings.insert(findings.end(), made->findings.begin(), made->findings.end());
+  findings.insert(findings.end(), made->flat->findings.begin(), made->flat->findings.end());
   return report(findings, session);
 }
 
@@ -140,6 +181,9 @@ void addUnfold(CLI::App& app, Session& session) {
                    "Price of area change against shear, 0 to 1000 (default 2)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("K");
+  addParsed(*command, "--auto-dart", arguments->autoDart, parseRatio,
+            "Put in darts until the mean area error is at most this, such as 5%")
+      ->type_name("RATIO");
 }
 
 }  // namespace toile::cli

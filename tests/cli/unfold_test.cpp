@@ -4,7 +4,9 @@
 
 #include <nlohmann/json.hpp>
 
+#include "support/meshes.h"
 #include "support/run_program.h"
+#include "toile/mesh/mesh_file.h"
 
 namespace toile::test {
 namespace {
@@ -38,6 +40,17 @@ TEST_F(UnfoldCommand, WritesThePatchWithItsPlane) {
   EXPECT_THAT(text, HasSubstr("# toile-units: mm\nv 0 0 0\n"));
   EXPECT_THAT(text, HasSubstr("f 1/1 2/2 5/5\n"));
   EXPECT_THAT(text, HasSubstr("g wire_feature_ridge\nl 2 5 8\n"));
+}
+
+TEST_F(UnfoldCommand, PutsInDartsAndTellsWhereFacesComeFrom) {
+  writeText(in_, writeObj(sphereCap(100, 3, 0)));
+  const ProgramResult result = run({"--auto-dart", "8%"});
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.err, HasSubstr("autodart-1"));
+  EXPECT_THAT(result.out, HasSubstr("the lengths alone force"));
+  const std::string text = readText(out_);
+  EXPECT_THAT(text, HasSubstr("g wire_dart_autodart-1\nl "));
+  EXPECT_THAT(text, HasSubstr("# source-face 1\n"));
 }
 
 TEST_F(UnfoldCommand, TellsProgramsTheCheck) {

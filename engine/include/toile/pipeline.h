@@ -24,6 +24,11 @@ namespace toile {
 struct MakeOptions {
   UnfoldOptions unfold;
   bool autoCut = false;  ///< cut tubes open by the proposed shortest cut
+  /// Puts darts, and cuts across saddles, into pieces whose mean area error is greater.
+  std::optional<Ratio> autoDart{};
+  /// Processes pieces whose mean area error is greater (toile/develop/develop.h), unless their
+  /// record says how.
+  std::optional<Ratio> autoDevelop{};
 };
 
 /// Flat pieces by content: what an edit did not touch is not solved again. Answers have no history:

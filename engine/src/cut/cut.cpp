@@ -2,10 +2,13 @@
 #include "toile/cut/cut.h"
 
 #include <algorithm>
+#include <cmath>
+#include <functional>
 #include <map>
 
 #include "cut/anchors.h"
 #include "cut/cut_findings.h"
+#include "cut/ease.h"
 #include "cut/piece_builder.h"
 #include "toile/core/parallel.h"
 
@@ -103,10 +106,33 @@ std::string_view toString(WireKind kind) {
   return "";
 }
 
+std::array<double, 3> targetSides(const Piece& piece, FaceId face) {
+  if (!piece.targetSides.empty()) return piece.targetSides[face];
+  const Mesh& mesh = *piece.mesh;
+  std::array<double, 3> sides{};
+  for (std::size_t k = 0; k < 3; ++k) {
+    const Triangle& t = mesh.vertices(face);
+    sides[k] = (mesh.position(t[(k + 1) % 3]) - mesh.position(t[k])).norm();
+  }
+  return sides;
+}
+
+double areaOf(const std::array<double, 3>& sides) {
+  std::array<double, 3> s = sides;
+  std::sort(s.begin(), s.end(), std::greater<>());
+  // Kahan's order of Heron's formula, exact for needles too.
+  const double product = (s[0] + (s[1] + s[2])) * (s[2] - (s[0] - s[1])) * (s[2] + (s[0] - s[1])) *
+                         (s[0] + (s[1] - s[2]));
+  return 0.25 * std::sqrt(std::max(product, 0.0));
+}
+
 ContentHash contentHash(const Piece& piece) {
   ContentHasher hasher;
   hasher.add(piece.mesh->connectivityHash());
   for (const Eigen::Vector3d& p : piece.mesh->positions()) hasher.add(p.x()).add(p.y()).add(p.z());
+  for (const std::array<double, 3>& sides : piece.targetSides.values()) {
+    for (const double side : sides) hasher.add(side);
+  }
   hasher.add(std::uint64_t{piece.wires.size()});
   for (const Wire& wire : piece.wires) {
     hasher.add(wire.kind).add(wire.curve).add(wire.part);
@@ -127,8 +153,9 @@ Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> cur
   if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "cutting was cancelled", {}};
 
   CutResult result;
-  result.refined = std::make_shared<const RefinedMesh>(std::move(*refinement));
-  const RefinedMesh& refined = *result.refined;
+  const auto owned = std::make_shared<RefinedMesh>(std::move(*refinement));
+  result.refined = owned;
+  const RefinedMesh& refined = *owned;
   const std::vector<std::vector<FaceId>> regions = cutting::findRegions(refined);
   FaceData<std::uint32_t> regionOfFace(refined.mesh.faceCount());
   for (std::uint32_t r = 0; r < regions.size(); ++r) {
@@ -155,6 +182,9 @@ Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> cur
     }
   }
 
+  if (const Result<void> done = cutting::applyEase(document, *owned, builds); !done) {
+    return done.error();
+  }
   result.mates = cutting::findMates(refined, builds);
   result.includedArea = includedArea(model, refined, builds);
   result.findings = cutting::findNoteworthy(document, curves, refined, openedAt, builds);

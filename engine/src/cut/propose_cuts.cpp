@@ -7,23 +7,10 @@
 
 #include "cut/topology.h"
 #include "toile/curve/geodesic.h"
+#include "toile/cut/on_model.h"
 
 namespace toile {
 namespace {
-
-/// A point of the piece's mesh as one of the model.
-SurfacePoint onModel(const Piece& piece, const Mesh& model, const SurfacePoint& point) {
-  if (const auto* v = std::get_if<VertexId>(&point.at)) return piece.onModel[*v];
-  const FaceId f = facesOf(*piece.mesh, point).front();
-  const FaceId source = piece.sourceFace[f];
-  const Eigen::Vector3d weights = barycentricIn(*piece.mesh, point, f);
-  Eigen::Vector3d sum = Eigen::Vector3d::Zero();
-  for (int k = 0; k < 3; ++k) {
-    const VertexId corner = piece.mesh->vertices(f)[static_cast<std::size_t>(k)];
-    sum += weights[k] * barycentricIn(model, piece.onModel[corner], source);
-  }
-  return makeSurfacePoint(model, source, sum);
-}
 
 /// The shortest way along mesh edges from the sources to the targets; empty if there is none.
 std::vector<VertexId> shortestEdgePath(const Mesh& mesh, const std::vector<VertexId>& sources,
@@ -102,21 +89,6 @@ Result<SurfacePath> shortestLink(GeodesicLinker& linker, const Mesh& mesh,
   return best;
 }
 
-StylingCurve makeCut(const Piece& piece, const Mesh& model, std::size_t number,
-                     const std::vector<SurfacePoint>& points) {
-  StylingCurve curve;
-  curve.id = fmt::format("autocut-{}-{}", piece.id, number);
-  curve.name = fmt::format("proposed cut {} of {}", number, piece.name);
-  curve.kind = CurveKind::Seam;
-  for (const SurfacePoint& p : points) {
-    const ModelPoint at = toModelPoint(model, onModel(piece, model, p));
-    if (curve.dataPoints.empty() || !(curve.dataPoints.back() == at))
-      curve.dataPoints.push_back(at);
-  }
-  curve.way = ShortestWay{{curve.dataPoints.front(), curve.dataPoints.back()}, {}};
-  return curve;
-}
-
 }  // namespace
 
 Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const ReferenceModel& model) {
@@ -159,7 +131,10 @@ Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const Referenc
     const End& to = ends[endOfVertex[path.back().index()]];
     const auto link = shortestLink(linker, mesh, {&from, &to}, path);
     if (!link) return link.error().during("cut of piece \"" + piece.id + "\"");
-    cuts.push_back(makeCut(piece, *model.mesh, cuts.size() + 1, link->points));
+    const std::size_t number = cuts.size() + 1;
+    cuts.push_back(makeCurveOnModel(
+        piece, *model.mesh, link->points, fmt::format("autocut-{}-{}", piece.id, number),
+        fmt::format("proposed cut {} of {}", number, piece.name), CurveKind::Seam));
     for (const VertexId v : to) isTarget[v.index()] = false;
     joined.insert(joined.end(), to.begin(), to.end());
   }

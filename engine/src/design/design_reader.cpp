@@ -264,6 +264,36 @@ StylingCurve readCurve(const JsonPlace& at) {
   return curve;
 }
 
+Ease readEase(const JsonPlace& at) {
+  constexpr double kLeast = -0.9, kMost = 10;
+  Ease ease;
+  if (at.is(JsonValue::Kind::String)) {
+    ease.girth = ease.length = readRatio(at, kLeast, kMost);
+    return ease;
+  }
+  JsonObject object(at);
+  if (const auto girth = object.find("girth")) ease.girth = readRatio(*girth, kLeast, kMost);
+  if (const auto length = object.find("length")) ease.length = readRatio(*length, kLeast, kMost);
+  if (const auto along = object.find("along")) ease.along = readName(*along);
+  ease.unknown = object.unknown();
+  return ease;
+}
+
+DevelopSetting readDevelop(const JsonPlace& at) {
+  JsonObject object(at);
+  DevelopSetting develop;
+  if (const auto amount = object.find("amount")) develop.amount = readRatio(*amount, 0, 1);
+  if (const auto error = object.find("maxAreaError")) {
+    develop.maxAreaError = readRatio(*error, 1e-4, 1);
+  }
+  if (develop.amount.has_value() == develop.maxAreaError.has_value()) {
+    at.fail("needs either \"amount\" or \"maxAreaError\"");
+  }
+  if (const auto gap = object.find("gap")) develop.gap = readLengthFrom(*gap, Length());
+  develop.unknown = object.unknown();
+  return develop;
+}
+
 PieceRecord readPiece(const JsonPlace& at) {
   JsonObject object(at);
   PieceRecord piece;
@@ -276,6 +306,8 @@ PieceRecord readPiece(const JsonPlace& at) {
     if (piece.count == 0) count->fail("must be 1 or more");
   }
   if (const auto fabric = object.find("fabric")) piece.fabric = readId(*fabric);
+  if (const auto ease = object.find("ease")) piece.ease = readEase(*ease);
+  if (const auto develop = object.find("develop")) piece.develop = readDevelop(*develop);
   if (const auto boundary = object.find("boundary")) {
     for (const JsonPlace& item : boundary->items()) piece.boundary.push_back(readId(item));
   }
@@ -310,10 +342,13 @@ Fabric readFabric(const JsonPlace& at) {
   if (const auto thickness = object.find("thickness")) {
     fabric.thickness = readLengthFrom(*thickness, Length());
   }
+  if (const auto offset = object.find("thicknessOffset")) {
+    fabric.thicknessOffset = readRatio(*offset, 0, 1);
+  }
   if (const auto width = object.find("rollWidth")) {
     fabric.rollWidth = readLengthFrom(*width, Length(), false);
   }
-  if (const auto ease = object.find("ease")) fabric.ease = readRatio(*ease, -0.9, kMaxStretch);
+  if (const auto ease = object.find("ease")) fabric.ease = readEase(*ease);
   fabric.unknown = object.unknown();
   return fabric;
 }

@@ -253,6 +253,27 @@ std::string text(const StylingCurve& curve, int indent) {
   return out.addUnknown(curve.unknown).block(indent);
 }
 
+/// As one ratio where it is the same in all directions.
+std::string text(const Ease& ease) {
+  if (ease.girth == ease.length && ease.along == Ease().along && ease.unknown.empty()) {
+    return quantity(ease.girth);
+  }
+  return Members()
+      .add("girth", quantity(ease.girth))
+      .add("length", quantity(ease.length))
+      .add("along", quoteJson(ease.along))
+      .addUnknown(ease.unknown)
+      .row();
+}
+
+std::string text(const DevelopSetting& develop) {
+  Members out;
+  if (develop.amount) out.add("amount", quantity(*develop.amount));
+  if (develop.maxAreaError) out.add("maxAreaError", quantity(*develop.maxAreaError));
+  if (develop.gap) out.add("gap", quantity(*develop.gap));
+  return out.addUnknown(develop.unknown).row();
+}
+
 std::string text(const PieceRecord& piece, int indent) {
   Members out;
   out.add("id", quoteJson(piece.id));
@@ -261,6 +282,8 @@ std::string text(const PieceRecord& piece, int indent) {
   if (!piece.include) out.add("include", "false");
   if (piece.count != 1) out.add("count", std::to_string(piece.count));
   out.addText("fabric", piece.fabric);
+  if (piece.ease) out.add("ease", text(*piece.ease));
+  if (piece.develop) out.add("develop", text(*piece.develop));
   if (!piece.boundary.empty()) out.add("boundary", row(each(piece.boundary, quoteJson)));
   return out.addUnknown(piece.unknown).block(indent);
 }
@@ -274,8 +297,11 @@ std::string text(const Fabric& fabric, int indent) {
   if (fabric.stretchAcross) out.add("stretchAcross", quantity(*fabric.stretchAcross));
   if (fabric.shear) out.add("shear", quantity(*fabric.shear));
   out.add("thickness", quantity(fabric.thickness));
+  if (fabric.thicknessOffset != Ratio()) {
+    out.add("thicknessOffset", quantity(fabric.thicknessOffset));
+  }
   if (fabric.rollWidth) out.add("rollWidth", quantity(*fabric.rollWidth));
-  out.add("ease", quantity(fabric.ease));
+  out.add("ease", text(fabric.ease));
   return out.addUnknown(fabric.unknown).block(indent);
 }
 

@@ -68,12 +68,6 @@ double allowanceOf(const Wire& wire, const Piece& piece, const Document& documen
   return usual;
 }
 
-const Fabric* fabricOf(const Design& design, const std::string& id) {
-  for (const Fabric& fabric : design.fabrics)
-    if (id.empty() || fabric.id == id) return &fabric;
-  return nullptr;
-}
-
 }  // namespace
 
 Result<std::vector<PatternPiece>> finish(
@@ -102,13 +96,9 @@ Result<std::vector<PatternPiece>> finish(
     out.name = piece.name.empty() ? piece.id : piece.name;
     out.number = static_cast<int>(p) + 1;
     out.of = static_cast<int>(work.size());
-    std::string fabric;
-    for (const PieceRecord& record : design.pieces) {
-      if (record.id != piece.id) continue;
-      out.count = record.count;
-      fabric = record.fabric;
-    }
-    if (const Fabric* found = fabricOf(design, fabric))
+    const PieceRecord* record = recordOf(design, piece.id);
+    if (record != nullptr) out.count = record->count;
+    if (const Fabric* found = fabricOf(design, record))
       out.fabric = found->name.empty() ? found->id : found->name;
     out.sewLines = sew.loops;
     out.runs = sew.runs;

@@ -49,6 +49,19 @@ Json toJson(const UnfoldCheck& check) {
           {"maxTurnError", check.maxTurnError}};
 }
 
+Json toJson(const DevelopedPiece& developed) {
+  const DevelopReport& report = developed.report;
+  return {{"amount", developed.amount},
+          {"meanAreaErrorBefore", report.errorBefore},
+          {"meanAreaErrorAgainstBody", report.errorAgainstOriginal},
+          {"maxDefectBefore", report.maxDefectBefore},
+          {"maxDefect", report.maxDefect},
+          {"roughnessBefore", report.roughnessBefore},
+          {"roughness", report.roughness},
+          {"maxMove", report.maxMove},
+          {"maxFeatureChange", report.maxFeatureChange}};
+}
+
 Json wiresJson(const Pattern& pattern, const ReportData& data, std::size_t index) {
   const Piece& piece = pattern.cut.pieces[index];
   const bool hasFlat = pattern.flats[index] != nullptr;
@@ -99,6 +112,9 @@ Json pieceJson(const Pattern& pattern, const ReportData& data, std::size_t index
                           {"meanAreaError", flat->meanAreaError},
                           {"maxAreaError", flat->maxAreaError}};
     json["check"] = toJson(flat->check);
+    if (index < pattern.developed.size() && pattern.developed[index]) {
+      json["developed"] = toJson(*pattern.developed[index]);
+    }
     json["solver"] = {{"steps", flat->steps}, {"wireStiffness", flat->wireStiffness}};
   }
   json["wires"] = wiresJson(pattern, data, index);

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <set>
 
+#include "pipeline/auto_dart.h"
 #include "toile/core/content_hash.h"
 #include "toile/core/parallel.h"
 
@@ -16,6 +17,8 @@ namespace {
 // A cut can leave a piece that still is no disk (a trouser leg with its foot); each round opens
 // every such piece once more.
 constexpr int kMaxAutoCutRounds = 4;
+/// Darts that a piece may get, one a round.
+constexpr int kMaxAutoDartRounds = 8;
 
 void tell(Progress* progress, const std::string& step) {
   if (progress != nullptr) progress->step(step);
@@ -115,16 +118,58 @@ std::vector<std::size_t> workOrder(const CutResult& cut) {
   return order;
 }
 
-void unfoldPieces(Pattern& pattern, const UnfoldOptions& options, PatternCache* cache,
+/// How a piece is to be processed; nothing where it stays as it was cut.
+std::optional<DevelopOptions> developOptions(const Pattern& pattern, const Piece& piece,
+                                             const MakeOptions& options) {
+  const PieceRecord* record = recordOf(*pattern.document.design, piece.id);
+  DevelopOptions develop;
+  develop.unfold = options.unfold;
+  if (record != nullptr && record->develop) {
+    const DevelopSetting& setting = *record->develop;
+    develop.maxAreaError = setting.maxAreaError;
+    if (setting.amount) develop.amount = setting.amount->value();
+    if (setting.gap) {
+      develop.outsideOf = pattern.document.model->index;
+      develop.gap = *setting.gap;
+    }
+    return develop;
+  }
+  if (!options.autoDevelop) return std::nullopt;
+  develop.maxAreaError = options.autoDevelop;
+  return develop;
+}
+
+/// Rule 1 of lengths: the cut's edges own what the processing made of them.
+void takeProcessedTargets(Pattern& pattern) {
+  std::shared_ptr<RefinedMesh> refined;
+  for (std::size_t i = 0; i < pattern.developed.size(); ++i) {
+    if (!pattern.developed[i]) continue;
+    if (!refined) refined = std::make_shared<RefinedMesh>(*pattern.cut.refined);
+    std::vector<Wire>& wires = pattern.cut.pieces[i].wires;
+    for (std::size_t w = 0; w < wires.size(); ++w) {
+      if (isBoundary(wires[w].kind)) continue;
+      wires[w].targetLength = pattern.developed[i]->piece.wires[w].targetLength;
+      for (std::size_t e = 0; e < wires[w].cutEdges.size(); ++e) {
+        refined->cutEdges[wires[w].cutEdges[e].index()].targetLength = wires[w].targetLength[e];
+      }
+    }
+  }
+  if (refined) pattern.cut.refined = std::move(refined);
+}
+
+void unfoldPieces(Pattern& pattern, const MakeOptions& make, PatternCache* cache,
                   Progress* progress) {
+  const UnfoldOptions& options = make.unfold;
   const std::vector<Piece>& pieces = pattern.cut.pieces;
   pattern.flats.assign(pieces.size(), nullptr);
   pattern.failures.assign(pieces.size(), std::nullopt);
+  pattern.developed.assign(pieces.size(), nullptr);
   const std::vector<std::size_t> order = workOrder(pattern.cut);
   std::vector<ContentHash> keys(pieces.size());
   std::vector<char> isCached(pieces.size(), 0);
   if (cache != nullptr) {
     for (const std::size_t i : order) {
+      if (developOptions(pattern, pieces[i], make)) continue;
       keys[i] = cacheKey(pieces[i], options);
       const auto found = cache->flats.find(keys[i]);
       if (found == cache->flats.end()) continue;
@@ -142,6 +187,18 @@ void unfoldPieces(Pattern& pattern, const UnfoldOptions& options, PatternCache* 
     tell(progress,
          fmt::format("unfold {} ({} of {})", pieces[i].name.empty() ? pieces[i].id : pieces[i].name,
                      number, order.size()));
+    if (const auto processing = developOptions(pattern, pieces[i], make)) {
+      Result<DevelopedPiece> developed = develop(pieces[i], *processing, progress);
+      if (!developed) {
+        pattern.failures[i] = developed.error().during(quoted(pieces[i]));
+        return;
+      }
+      pattern.flats[i] = developed->flat;
+      if (developed->amount > 0 || !developed->findings.empty()) {
+        pattern.developed[i] = std::make_shared<const DevelopedPiece>(*std::move(developed));
+      }
+      return;
+    }
     Result<FlatPiece> flat = unfold(pieces[i], options, progress);
     if (flat) {
       pattern.flats[i] = std::make_shared<const FlatPiece>(std::move(*flat));
@@ -153,9 +210,17 @@ void unfoldPieces(Pattern& pattern, const UnfoldOptions& options, PatternCache* 
   for (const std::size_t i : order) {
     if (cache != nullptr && isCached[i] == 0) {
       ++cache->solved;
-      if (pattern.flats[i]) cache->flats.emplace(keys[i], pattern.flats[i]);
+      if (keys[i] != ContentHash() && pattern.flats[i])
+        cache->flats.emplace(keys[i], pattern.flats[i]);
     }
     if (!pattern.flats[i]) continue;
+    if (pattern.developed[i]) {
+      for (Finding finding : pattern.developed[i]->findings) {
+        finding.message = quoted(pieces[i]) + ": " + finding.message;
+        finding.where.push_back(Element::piece(pieces[i].id));
+        pattern.findings.push_back(std::move(finding));
+      }
+    }
     for (Finding finding : pattern.flats[i]->findings) {
       finding.message = quoted(pieces[i]) + ": " + finding.message;
       pattern.findings.push_back(std::move(finding));
@@ -169,6 +234,29 @@ void unfoldPieces(Pattern& pattern, const UnfoldOptions& options, PatternCache* 
               {Element::piece(pieces[i].id)}};
     pattern.flats[i] = nullptr;
   }
+  takeProcessedTargets(pattern);
+}
+
+/// Unfolds, adds a dart to each piece over the limit and cuts again, while that helps.
+Result<void> putInDarts(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
+                        Progress* progress) {
+  MakeOptions plain = options;
+  plain.autoDevelop = std::nullopt;
+  for (int round = 0; round < kMaxAutoDartRounds; ++round) {
+    const std::size_t told = pattern.findings.size();
+    unfoldPieces(pattern, plain, &cache, progress);
+    pattern.findings.resize(told);  // they are told of the final pieces
+    if (isCancelled(progress)) return cancelled();
+    std::vector<Finding> findings;
+    const Result<bool> added = addProposedDarts(pattern, options, findings, progress);
+    if (!added) return added.error();
+    // Why a piece stays over the limit is told once, when no more darts come.
+    std::erase_if(findings, [&](const Finding& f) { return *added && f.code != "auto-dart"; });
+    append(pattern.findings, findings);
+    if (!*added) break;
+    if (const Result<void> done = placeAndCut(pattern, progress); !done) return done.error();
+  }
+  return {};
 }
 
 Result<void> finishAndArrange(Pattern& pattern, Progress* progress) {
@@ -204,10 +292,18 @@ Result<Pattern> makePattern(const Document& document, const MakeOptions& options
     if (!*added) break;
     if (const Result<void> done = placeAndCut(pattern, progress); !done) return done.error();
   }
+  PatternCache ownCache;
+  if (options.autoDart) {
+    PatternCache& known = cache != nullptr ? *cache : ownCache;
+    if (const Result<void> done = putInDarts(pattern, options, known, progress); !done) {
+      return done.error();
+    }
+    cache = &known;
+  }
   append(pattern.findings, pattern.cut.findings);
   if (isCancelled(progress)) return cancelled();
 
-  unfoldPieces(pattern, options.unfold, cache, progress);
+  unfoldPieces(pattern, options, cache, progress);
   if (isCancelled(progress)) return cancelled();
   if (const Result<void> done = finishAndArrange(pattern, progress); !done) return done.error();
   return pattern;

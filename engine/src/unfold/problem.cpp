@@ -23,28 +23,65 @@ constexpr double kSmoothTurn = 0.5;
 constexpr double kMinSpan = 0.05;
 constexpr std::size_t kMaxNamed = 24;
 
-double angleAt(const Eigen::Vector3d& at, const Eigen::Vector3d& from, const Eigen::Vector3d& to) {
-  const Eigen::Vector3d u = from - at;
-  const Eigen::Vector3d w = to - at;
+/// A face laid into a plane of its own: corner 0 at the origin, corner 1 along x, corner 2 above.
+struct FlatFace {
+  double length = 0;    ///< x of corner 1
+  double x = 0, y = 0;  ///< of corner 2
+  double longest = 0;   ///< side
+  [[nodiscard]] double doubleArea() const { return length * y; }
+};
+
+FlatFace layFlat(const Piece& piece, FaceId f) {
+  FlatFace face;
+  if (!piece.targetSides.empty()) {
+    const std::array<double, 3>& s = piece.targetSides[f];
+    face.length = s[0];
+    face.longest = *std::max_element(s.begin(), s.end());
+    face.y = s[0] > 0 ? 2 * areaOf(s) / s[0] : 0;
+    face.x = s[0] > 0 ? (s[0] * s[0] + (s[2] - s[1]) * (s[2] + s[1])) / (2 * s[0]) : 0;
+    return face;
+  }
+  const Triangle& t = piece.mesh->vertices(f);
+  const Eigen::Vector3d side = piece.mesh->position(t[1]) - piece.mesh->position(t[0]);
+  const Eigen::Vector3d other = piece.mesh->position(t[2]) - piece.mesh->position(t[0]);
+  face.length = side.norm();
+  face.longest = std::max({face.length, other.norm(), (other - side).norm()});
+  face.x = side.dot(other) / face.length;
+  face.y = side.cross(other).norm() / face.length;
+  return face;
+}
+
+/// The angle of a face at the corner that a halfedge leaves.
+double angleAt(const Piece& piece, HalfedgeId h) {
+  const Mesh& mesh = *piece.mesh;
+  if (!piece.targetSides.empty()) {
+    const FlatFace face = layFlat(piece, mesh.face(h));
+    const std::array<Eigen::Vector2d, 3> at{
+        Eigen::Vector2d(0, 0), {face.length, 0}, {face.x, face.y}};
+    const auto k = static_cast<std::size_t>(mesh.side(h));
+    const Eigen::Vector2d u = at[(k + 1) % 3] - at[k];
+    const Eigen::Vector2d w = at[(k + 2) % 3] - at[k];
+    return std::atan2(u.x() * w.y() - u.y() * w.x(), u.dot(w));
+  }
+  const Eigen::Vector3d u = mesh.position(mesh.to(h)) - mesh.position(mesh.from(h));
+  const Eigen::Vector3d w =
+      mesh.position(mesh.from(mesh.previous(h))) - mesh.position(mesh.from(h));
   return std::atan2(u.cross(w).norm(), u.dot(w));
 }
 
-Result<void> addTriangles(const Mesh& mesh, Problem& problem) {
+Result<void> addTriangles(const Piece& piece, Problem& problem) {
+  const Mesh& mesh = *piece.mesh;
   std::vector<Element> flat;
   problem.triangles.reserve(mesh.faceCount());
   for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
     const Triangle& t = mesh.triangles()[f];
-    const Eigen::Vector3d side = mesh.position(t[1]) - mesh.position(t[0]);
-    const Eigen::Vector3d other = mesh.position(t[2]) - mesh.position(t[0]);
-    const double length = side.norm();
-    const double longest = std::max({length, other.norm(), (other - side).norm()});
-    const double doubleArea = side.cross(other).norm();
+    const FlatFace face = layFlat(piece, FaceId(f));
+    const auto& [length, x, y, longest] = face;
+    const double doubleArea = face.doubleArea();
     if (!(doubleArea > kMinRelativeHeight * longest * longest)) {
       if (flat.size() < kMaxNamed) flat.push_back(Element::face(FaceId(f)));
       continue;
     }
-    const double x = side.dot(other) / length;
-    const double y = doubleArea / length;
     RestTriangle rest;
     rest.vertex = {t[0].index(), t[1].index(), t[2].index()};
     rest.area = 0.5 * doubleArea;
@@ -150,7 +187,8 @@ Result<EdgeData<std::uint32_t>> addWireEdges(const Piece& piece, Problem& proble
 }
 
 /// Walks the faces around every wire vertex and closes a corner at each wire edge.
-void addCorners(const Mesh& mesh, const EdgeData<std::uint32_t>& wireOfEdge, Problem& problem) {
+void addCorners(const Piece& piece, const EdgeData<std::uint32_t>& wireOfEdge, Problem& problem) {
+  const Mesh& mesh = *piece.mesh;
   const auto isWire = [&](HalfedgeId h) { return wireOfEdge[mesh.edge(h)] != WireEdge::kNoWire; };
   const auto target = [&](HalfedgeId h) {
     return problem.wireEdges[wireOfEdge[mesh.edge(h)]].target;
@@ -179,8 +217,7 @@ void addCorners(const Mesh& mesh, const EdgeData<std::uint32_t>& wireOfEdge, Pro
     HalfedgeId h = start;
     do {
       const HalfedgeId incoming = mesh.previous(h);
-      corner.alpha +=
-          angleAt(mesh.position(v), mesh.position(mesh.to(h)), mesh.position(mesh.from(incoming)));
+      corner.alpha += angleAt(piece, h);
       problem.sectorCorners.push_back(h.index());
       h = mesh.opposite(incoming);
       if (!isWire(incoming)) continue;
@@ -205,10 +242,10 @@ Result<Problem> makeProblem(const Piece& piece) {
   const Mesh& mesh = *piece.mesh;
   problem.vertexCount = mesh.vertexCount();
   if (Result<void> done = addLoops(mesh, problem); !done) return done.error();
-  if (Result<void> done = addTriangles(mesh, problem); !done) return done.error();
+  if (Result<void> done = addTriangles(piece, problem); !done) return done.error();
   Result<EdgeData<std::uint32_t>> wireOfEdge = addWireEdges(piece, problem);
   if (!wireOfEdge) return wireOfEdge.error();
-  addCorners(mesh, *wireOfEdge, problem);
+  addCorners(piece, *wireOfEdge, problem);
   return problem;
 }
 

@@ -103,7 +103,8 @@ TEST(DesignFile, ReadsWhatTheTextSays) {
   EXPECT_EQ(onEdge.head, VertexId(9));
   EXPECT_EQ(onEdge.t, 0.25);
   EXPECT_EQ(design->pieces[0].fabric, "shell");
-  EXPECT_EQ(design->fabrics[0].ease, Ratio::percent(-5));
+  EXPECT_EQ(design->fabrics[0].ease.girth, Ratio::percent(-5));
+  EXPECT_EQ(design->fabrics[0].ease.length, Ratio::percent(-5));
 }
 
 TEST(DesignFile, WritesToilesOwnTextUnchanged) {

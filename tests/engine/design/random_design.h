@@ -162,6 +162,21 @@ class RandomDesign {
     curve.unknown = unknown();
     return curve;
   }
+  Ease ease() {
+    Ease ease;
+    ease.girth = Ratio::of(fraction() - 0.5);
+    ease.length = chance() ? ease.girth : Ratio::of(fraction() - 0.5);
+    if (chance()) ease.along = chance() ? "x" : "arm_outer_l";
+    ease.unknown = unknown();
+    return ease;
+  }
+  DevelopSetting developSetting() {
+    DevelopSetting setting;
+    (chance() ? setting.amount : setting.maxAreaError) = Ratio::of(0.25 + fraction() / 2);
+    if (chance()) setting.gap = Length::mm(std::abs(number()));
+    setting.unknown = unknown();
+    return setting;
+  }
   PieceRecord piece(const Design& design) {
     PieceRecord piece;
     piece.id = newId("p");
@@ -170,6 +185,8 @@ class RandomDesign {
     piece.include = chance();
     piece.count = static_cast<int>(1 + below(3));
     if (!design.fabrics.empty() && chance()) piece.fabric = design.fabrics.front().id;
+    if (chance()) piece.ease = ease();
+    if (chance()) piece.develop = developSetting();
     for (const StylingCurve& curve : design.curves) piece.boundary.push_back(curve.id);
     piece.unknown = unknown();
     return piece;
@@ -184,7 +201,8 @@ class RandomDesign {
     if (chance()) fabric.shear = Ratio::of(fraction());
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
-    fabric.ease = Ratio::of(fraction() - 0.5);
+    fabric.thicknessOffset = Ratio::of(fraction());
+    fabric.ease = ease();
     fabric.unknown = unknown();
     return fabric;
   }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <memory>
 #include <optional>
 #include <span>
@@ -70,10 +71,18 @@ struct Piece {
   std::shared_ptr<const Mesh> mesh;  ///< 3D, mm; opened along boundary wires
   VertexData<SurfacePoint> onModel;
   FaceData<FaceId> sourceFace;
+  /// The sides that each face is to have before it is strained, mm, from its corner 0 on: where
+  /// ease or thickness makes them others than those of the mesh. Empty = those of the mesh.
+  FaceData<std::array<double, 3>> targetSides;
   std::vector<Wire> wires;         ///< boundary wires in order around the loops, then inner wires
   std::vector<int> recordIndices;  ///< piece records whose anchors lie here; empty = new
   bool include = true;
 };
+
+/// The sides of a face that its strain is counted from, mm, from its corner 0 on.
+[[nodiscard]] std::array<double, 3> targetSides(const Piece& piece, FaceId face);
+/// The area of a triangle of those sides.
+[[nodiscard]] double areaOf(const std::array<double, 3>& sides);
 
 /// Of the content that unfolding sees: positions, faces, wires with kinds and targets.
 [[nodiscard]] ContentHash contentHash(const Piece& piece);
@@ -103,7 +112,9 @@ struct CutResult {
 /// @par Cost  linear in the triangles plus, per crossed face, quadratic in its segments
 Result<RefinedMesh> refine(const Mesh& mesh, std::span<const PlacedCurve> curves);
 
-/// Cuts the model into pieces along the placed curves and gives them their records.
+/// Cuts the model into pieces along the placed curves, gives them their records, and the edges the
+/// target lengths that ease and thickness of the pieces ask for: along a seam the mean of both
+/// sides, so that mates stay equal.
 Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> curves,
                       Progress* progress = nullptr);
 

@@ -186,6 +186,28 @@ struct StylingCurve {
   friend bool operator==(const StylingCurve&, const StylingCurve&) = default;
 };
 
+/// By how much cloth is cut larger (> 0) or smaller than the body, in two directions on the
+/// surface.
+struct Ease {
+  Ratio girth;   ///< across `along`: around the body
+  Ratio length;  ///< along it
+  /// "x", "y", "z" or the name of a model curve, whose direction at its nearest point is meant.
+  std::string along = "z";
+  UnknownKeys unknown{};
+  [[nodiscard]] bool isNone() const { return girth == Ratio() && length == Ratio(); }
+  friend bool operator==(const Ease&, const Ease&) = default;
+};
+
+/// Developable processing of a piece: of `amount` t, or as much as `maxAreaError` needs.
+struct DevelopSetting {
+  std::optional<Ratio> amount;  ///< 0..1
+  std::optional<Ratio> maxAreaError;
+  /// Least distance of the processed piece from the model; without it the piece may enter.
+  std::optional<Length> gap;
+  UnknownKeys unknown{};
+  friend bool operator==(const DevelopSetting&, const DevelopSetting&) = default;
+};
+
 /// Identity of a piece: the region in which the anchor lies.
 struct PieceRecord {
   std::string id;
@@ -193,7 +215,9 @@ struct PieceRecord {
   Place anchor;
   bool include = true;
   int count = 1;
-  std::string fabric;                 ///< id; empty = the first
+  std::string fabric;        ///< id; empty = the first
+  std::optional<Ease> ease;  ///< instead of the fabric's
+  std::optional<DevelopSetting> develop;
   std::vector<std::string> boundary;  ///< ids of the curves around it, cyclic; empty = not noted
   UnknownKeys unknown;
   friend bool operator==(const PieceRecord&, const PieceRecord&) = default;
@@ -205,8 +229,10 @@ struct Fabric {
   std::string colour;                                       ///< "#rrggbb" or empty
   std::optional<Ratio> stretchAlong, stretchAcross, shear;  ///< limits
   Length thickness;
+  /// Where in the cloth lengths are counted: 0 = the side on the body, 1 = the outer one.
+  Ratio thicknessOffset;
   std::optional<Length> rollWidth;
-  Ratio ease;
+  Ease ease;
   UnknownKeys unknown;
   friend bool operator==(const Fabric&, const Fabric&) = default;
 };
@@ -247,6 +273,11 @@ struct Design {
   UnknownKeys unknown;  ///< layers, layout, options of later versions
   friend bool operator==(const Design&, const Design&) = default;
 };
+
+/// The record of a piece by its id; null for a new piece.
+[[nodiscard]] const PieceRecord* recordOf(const Design& design, const std::string& id);
+/// The fabric that a piece of this record is made of; null when the design has none.
+[[nodiscard]] const Fabric* fabricOf(const Design& design, const PieceRecord* record);
 
 /// A Design with the models it is used on; a value.
 struct Document {

@@ -6,19 +6,24 @@
 #include <optional>
 #include <vector>
 
+#include "toile/develop/develop.h"
 #include "toile/layout/layout.h"
 
 namespace toile {
 
-/// Everything that was made from a document. `flats`, `failures` run parallel to `cut.pieces`.
+/// Everything that was made from a document. `flats`, `failures`, `developed` run parallel to
+/// `cut.pieces`.
 struct Pattern {
   Document document;
   std::vector<PlacedCurve> curves;
   CutResult cut;
   std::vector<std::shared_ptr<const FlatPiece>> flats;  ///< null: left out, or failed
-  std::vector<std::optional<Error>> failures;           ///< why a piece could not be unfolded
-  std::vector<PatternPiece> pieces;                     ///< of the flats that passed every check
-  std::vector<std::uint32_t> pieceIndex;                ///< per pattern piece: index in cut.pieces
+  /// What developable processing did; null where there was none. `flats` is of the processed shape,
+  /// `cut` holds the piece on the body with the target lengths of that shape.
+  std::vector<std::shared_ptr<const DevelopedPiece>> developed;
+  std::vector<std::optional<Error>> failures;  ///< why a piece could not be unfolded
+  std::vector<PatternPiece> pieces;            ///< of the flats that passed every check
+  std::vector<std::uint32_t> pieceIndex;       ///< per pattern piece: index in cut.pieces
   Layout layout;
   std::vector<Finding> findings;  ///< of all steps, in their order
 

@@ -1,0 +1,160 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/develop/darts.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "develop/dart_paths.h"
+#include "develop/patch.h"
+
+namespace toile {
+namespace {
+
+using namespace developing;
+
+/// A dart must lower the mean area error by this share.
+constexpr double kLeastHelp = 0.1;
+
+/// How wide the dart's mouth opens in the plane: its two boundary ends.
+double intakeOf(const Piece& piece, const FlatPiece& flat, const std::string& dart) {
+  std::vector<VertexId> ends;
+  for (const Wire& wire : piece.wires) {
+    if (wire.kind != WireKind::Dart || wire.curve != dart) continue;
+    ends.push_back(wire.vertices.front());
+    ends.push_back(wire.vertices.back());
+  }
+  // Both sides share the tip; the two other ends are the mouth's.
+  std::vector<VertexId> mouth;
+  for (const VertexId v : ends) {
+    if (std::count(ends.begin(), ends.end(), v) == 1) mouth.push_back(v);
+  }
+  if (mouth.size() != 2) return 0;
+  return (flat.position[mouth[0]] - flat.position[mouth[1]]).norm();
+}
+
+Result<void> checkOptions(const DartOptions& options) {
+  if (options.maxProposals >= 1 && options.maxProposals <= 16 && options.tipDistance.mm() >= 0) {
+    return {};
+  }
+  return Error{ErrorCode::InvalidArgument,
+               "dart options: 1 to 16 proposals, a distance of the tip of 0 mm or more",
+               {}};
+}
+
+}  // namespace
+
+std::string describe(const DartProposal& proposal) {
+  if (proposal.kind == DartProposal::Kind::Cut) {
+    return fmt::format("cut or gusset, {:.0f} mm long", proposal.length);
+  }
+  return fmt::format("dart, {:.0f} mm long, {:.1f} mm wide at its mouth", proposal.length,
+                     proposal.intake);
+}
+
+Result<std::vector<DartProposal>> adviseDarts(const Piece& piece, const FlatPiece& flat,
+                                              const DartOptions& options, Progress* progress) {
+  if (const Result<void> valid = checkOptions(options); !valid) return valid.error();
+  Result<ForcedError> forced = measureForcedError(piece);
+  if (!forced) return forced.error();
+  std::vector<DartProposal> proposals;
+  const Patch patch = patchOf(piece);
+  std::size_t tried = 0;
+  for (const Candidate& candidate : findCandidates(piece, options)) {
+    if (tried == options.maxProposals) break;
+    if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "stopped", {}};
+    DartProposal proposal;
+    proposal.path = candidate.path;
+    proposal.apex = candidate.apex;
+    proposal.length = candidate.length;
+    proposal.errorBefore = flat.meanAreaError;
+    if (candidate.bulge < 0) {
+      proposal.kind = DartProposal::Kind::Cut;
+      proposal.errorAfter =
+          flat.meanAreaError * std::min(1.0, candidate.errorLeft / forced->estimate);
+    } else {
+      ++tried;
+      const Result<Patch> with = addDart(patch, piece, candidate.path, "proposal");
+      if (!with) continue;
+      Result<Piece> opened = makePiece(piece.name, with->mesh, with->chains, with->targets);
+      if (!opened) continue;
+      takeTargetSides(piece, with->sourceFace, *opened);
+      const Result<FlatPiece> after = unfold(*opened, options.unfold, progress);
+      if (!after || !after->check.passes()) continue;
+      proposal.errorAfter = after->meanAreaError;
+      proposal.intake = intakeOf(*opened, *after, "proposal");
+    }
+    if (proposal.errorAfter < (1 - kLeastHelp) * proposal.errorBefore) {
+      proposals.push_back(std::move(proposal));
+    }
+  }
+  // A cut makes two pieces of one: nobody wants it where a dart does.
+  std::stable_sort(proposals.begin(), proposals.end(),
+                   [](const DartProposal& a, const DartProposal& b) {
+                     return std::pair(a.kind, a.errorAfter) < std::pair(b.kind, b.errorAfter);
+                   });
+  return proposals;
+}
+
+Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
+                          const DartOptions& options, int maxDarts, Progress* progress) {
+  Result<Piece> piece = makePiece(name, patch.mesh, patch.chains, patch.targets);
+  if (!piece) return piece.error();
+  Result<ForcedError> forced = measureForcedError(*piece);
+  if (!forced) return forced.error();
+  Result<FlatPiece> flat = unfold(*piece, options.unfold, progress);
+  if (!flat) return flat.error();
+  AutoDart made{std::move(patch), *std::move(piece), nullptr, {}, *forced, flat->meanAreaError, {}};
+
+  const auto stopBecause = [&](const char* code, const std::string& why) {
+    made.findings.push_back(
+        {code,
+         fmt::format("{:.2f} % mean area error is left where {:.3g} % is wanted: {}",
+                     100 * flat->meanAreaError, limit.percent(), why),
+         {}});
+  };
+  while (flat->meanAreaError > limit.value()) {
+    if (static_cast<int>(made.darts.size()) == maxDarts) {
+      stopBecause("dart-limit", fmt::format("{} darts are in already", maxDarts));
+      break;
+    }
+    const auto proposals = adviseDarts(made.piece, *flat, options, progress);
+    if (!proposals) return proposals.error();
+    if (proposals->empty()) {
+      stopBecause("no-dart-helps",
+                  "no further dart helps by a tenth; part the piece by a seam, or let it be "
+                  "processed (toile develop)");
+      break;
+    }
+    const DartProposal& best = proposals->front();
+    if (best.kind == DartProposal::Kind::Cut) {
+      stopBecause(
+          "needs-cut",
+          "cloth is missing there (a saddle), where a dart would overlap: part the piece by "
+          "a seam or sew in a gusset; " +
+              describe(best));
+      break;
+    }
+    const std::string id = fmt::format("autodart-{}", made.darts.size() + 1);
+    Result<Patch> with = addDart(made.patch, made.piece, best.path, id);
+    if (!with) return with.error();
+    Result<Piece> opened = makePiece(name, with->mesh, with->chains, with->targets);
+    if (!opened) return opened.error();
+    Result<FlatPiece> after = unfold(*opened, options.unfold, progress);
+    if (!after) return after.error();
+    made.findings.push_back(
+        {"auto-dart",
+         fmt::format("\"{}\": {}; mean area error {:.2f} -> {:.2f} %", id, describe(best),
+                     100 * flat->meanAreaError, 100 * after->meanAreaError),
+         {Element::curve(id)}});
+    made.darts.push_back(best);
+    made.patch = *std::move(with);
+    made.piece = *std::move(opened);
+    flat = std::move(after);
+  }
+  made.flat = std::make_shared<const FlatPiece>(*std::move(flat));
+  return made;
+}
+
+}  // namespace toile

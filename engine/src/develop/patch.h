@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "toile/develop/darts.h"
+
+namespace toile::developing {
+
+/// A piece as a patch whose chains are its wires, named by their place in the piece's list.
+[[nodiscard]] Patch patchOf(const Piece& piece);
+
+/// Gives a piece of re-cut faces the target sides of the faces it was cut from, and the dart
+/// "proposal" its mean scale.
+void takeTargetSides(const Piece& from, const FaceData<FaceId>& source, Piece& to);
+
+}  // namespace toile::developing

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/auto_dart.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include "toile/cut/on_model.h"
+#include "toile/develop/darts.h"
+
+namespace toile {
+namespace {
+
+constexpr std::size_t kNone = static_cast<std::size_t>(-1);
+/// Pieces whose areas differ by less are each other's mirror images.
+constexpr double kSameArea = 1e-3;
+/// A dart nearer than this to the mirror plane at both ends is its own mirror image.
+constexpr double kOnPlane = 5;
+
+double areaOf(const Piece& piece) {
+  double area = 0;
+  for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) area += piece.mesh->area(FaceId(f));
+  return area;
+}
+
+/// The piece that lies where the mirror image of this one does; kNone without one alike.
+std::size_t mirrorPiece(const Pattern& pattern, std::size_t index) {
+  const ReferenceModel& model = *pattern.document.model;
+  if (!model.symmetry || model.symmetry->partner.empty()) return kNone;
+  const Piece& piece = pattern.cut.pieces[index];
+  std::set<std::array<std::uint32_t, 3>> mirrored;
+  for (const FaceId f : piece.sourceFace.values()) {
+    std::array<std::uint32_t, 3> corners{};
+    for (std::size_t k = 0; k < 3; ++k) {
+      corners[k] = model.symmetry->partner[model.mesh->vertices(f)[k]].index();
+    }
+    std::sort(corners.begin(), corners.end());
+    mirrored.insert(corners);
+  }
+  for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
+    const Piece& other = pattern.cut.pieces[i];
+    if (!other.include) continue;
+    std::size_t inside = 0;
+    for (const FaceId f : other.sourceFace.values()) {
+      std::array<std::uint32_t, 3> corners{};
+      for (std::size_t k = 0; k < 3; ++k) corners[k] = model.mesh->vertices(f)[k].index();
+      std::sort(corners.begin(), corners.end());
+      inside += mirrored.count(corners);
+    }
+    const double area = areaOf(piece);
+    if (2 * inside > other.sourceFace.size() && std::abs(areaOf(other) - area) < kSameArea * area) {
+      return i;
+    }
+  }
+  return kNone;
+}
+
+bool liesOnPlane(const Piece& piece, const SurfacePath& path, const Symmetry& symmetry) {
+  const auto isNear = [&](const SurfacePoint& point) {
+    const double offset = symmetry.normal.dot(position(*piece.mesh, point)) - symmetry.offset;
+    return std::abs(offset) < kOnPlane;
+  };
+  return isNear(path.points.front()) && isNear(path.points.back());
+}
+
+}  // namespace
+
+Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
+                              std::vector<Finding>& findings, Progress* progress) {
+  const ReferenceModel& model = *pattern.document.model;
+  Design design = *pattern.document.design;
+  std::set<std::string> known;
+  for (const StylingCurve& curve : design.curves) known.insert(curve.id);
+  const auto freeId = [&known](const std::string& wanted) {
+    std::string id = wanted;
+    for (int n = 2; !known.insert(id).second; ++n) id = fmt::format("{}-{}", wanted, n);
+    return id;
+  };
+  bool added = false;
+  std::set<std::size_t> done;
+  for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
+    const Piece& piece = pattern.cut.pieces[i];
+    if (!pattern.flats[i] || done.contains(i)) continue;
+    if (pattern.flats[i]->meanAreaError <= options.autoDart->value()) continue;
+    if (progress != nullptr) progress->step("look for a dart in " + piece.name);
+    const auto proposals =
+        adviseDarts(piece, *pattern.flats[i], {.unfold = options.unfold}, progress);
+    if (!proposals) return proposals.error().during("piece \"" + piece.name + "\"");
+    if (proposals->empty()) {
+      findings.push_back({"no-dart-helps",
+                          fmt::format("piece \"{}\": {:.2f} % mean area error is left where {:.3g} % "
+                                      "is wanted; no dart or cut helps by a tenth",
+                                      piece.name, 100 * pattern.flats[i]->meanAreaError,
+                                      options.autoDart->percent()),
+                          {Element::piece(piece.id)}});
+      continue;
+    }
+    const DartProposal& best = proposals->front();
+    const bool isDart = best.kind == DartProposal::Kind::Dart;
+    const std::string id = freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam", piece.id));
+    design.curves.push_back(makeCurveOnModel(piece, *model.mesh, best.path.points, id,
+                                             "proposed for " + piece.name,
+                                             isDart ? CurveKind::Dart : CurveKind::Seam));
+    added = true;
+    const std::size_t mirror = mirrorPiece(pattern, i);
+    const bool isMirrored = mirror != kNone && !done.contains(mirror) &&
+                            (mirror != i || !liesOnPlane(piece, best.path, *model.symmetry));
+    if (isMirrored) {
+      StylingCurve image;
+      image.id = freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam",
+                                    pattern.cut.pieces[mirror].id));
+      image.name = "proposed for " + pattern.cut.pieces[mirror].name;
+      image.kind = design.curves.back().kind;
+      image.mirrorOf = id;
+      design.curves.push_back(std::move(image));
+      done.insert(mirror);
+    }
+    findings.push_back({"auto-dart",
+                        fmt::format("piece \"{}\": \"{}\"{}: {}; mean area error {:.2f} -> {:.2f} %",
+                                    piece.name, id, isMirrored ? " and its mirror image" : "",
+                                    describe(best), 100 * best.errorBefore, 100 * best.errorAfter),
+                        {Element::piece(piece.id), Element::curve(id)}});
+  }
+  if (added) pattern.document.design = std::make_shared<const Design>(std::move(design));
+  return added;
+}
+
+}  // namespace toile

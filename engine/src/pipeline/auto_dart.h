@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "toile/pipeline.h"
+
+namespace toile {
+
+/// Adds the best dart (across a saddle: a cut) of every unfolded piece over the limit to the
+/// pattern's design; on a model with symmetry its mirror image too, where the piece, or the piece
+/// on the other side, is symmetric.
+/// @param findings gets one per line added, and why a piece stays over the limit
+/// @return whether there were any
+Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
+                              std::vector<Finding>& findings, Progress* progress);
+
+}  // namespace toile

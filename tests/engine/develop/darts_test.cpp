@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/develop/darts.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "support/meshes.h"
+#include "support/patches.h"
+#include "support/result_printing.h"
+
+namespace toile {
+namespace {
+
+Patch patchOfMesh(const Mesh& mesh) {
+  return {mesh, {}, {}, {}};
+}
+
+/// Radius 100: a square grid drawn round, so that its border is the equator.
+Mesh hemisphere(int n = 24) {
+  const Mesh plane = test::grid(n, n, 2.0 / n);
+  std::vector<Eigen::Vector3d> at;
+  for (const Eigen::Vector3d& p : plane.positions()) {
+    const double x = p.x() - 1, y = p.y() - 1;
+    const double r = std::max(std::abs(x), std::abs(y));
+    const double turn = r == 0 ? 0 : std::atan2(y, x);
+    const double polar = r * std::numbers::pi / 2;
+    at.emplace_back(100 * std::sin(polar) * std::cos(turn), 100 * std::sin(polar) * std::sin(turn),
+                    100 * std::cos(polar));
+  }
+  return plane.withPositions(std::move(at));
+}
+
+TEST(ForcedError, OfAHemisphereIsHalfItsArea) {
+  const Piece piece = test::patchOf(hemisphere());
+  const Result<ForcedError> forced = measureForcedError(piece);
+  ASSERT_TRUE(forced) << forced.error();
+  EXPECT_NEAR(forced->bound, 0.5, 0.01);
+  // The corners of the square have nearly straight angles, where cotangents are cut off.
+  EXPECT_NEAR(forced->estimate, 0.5, 0.06);
+  EXPECT_GT(forced->bulge, 0.5);
+  EXPECT_GT(piece.mesh->position(forced->apex).z(), 95);
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  EXPECT_GE(flat->meanAreaError, forced->bound - 1e-9);
+}
+
+TEST(ForcedError, IsZeroWhereNothingIsCurved) {
+  const Result<ForcedError> forced =
+      measureForcedError(test::patchOf(test::halfCylinder(80, 300, 16, 20)));
+  ASSERT_TRUE(forced) << forced.error();
+  EXPECT_EQ(forced->bound, 0);
+  EXPECT_LT(forced->estimate, 1e-12);
+  EXPECT_NEAR(forced->totalCurvature, 0, 1e-9);
+}
+
+TEST(ForcedError, CountsEveryRegionBetweenWires) {
+  const Mesh dome = test::heightField(20, 20, 10, [](double x, double y) {
+    return 60 * std::sin(x * std::numbers::pi / 200) * std::sin(y * std::numbers::pi / 200);
+  });
+  PolygonSoup::Chain line{"wire_feature_middle", {}, 0};
+  for (std::uint32_t i = 0; i <= 20; ++i) line.vertices.push_back(10 * 21 + i);
+  const Result<ForcedError> plain = measureForcedError(test::patchOf(dome));
+  const Result<ForcedError> halved = measureForcedError(test::patchOf(dome, {line}));
+  ASSERT_TRUE(plain && halved);
+  EXPECT_LT(halved->estimate, plain->estimate);
+  EXPECT_NEAR(halved->totalCurvature, plain->totalCurvature, 1e-9);
+}
+
+TEST(Darts, OpenAHemisphereUntilTheLimitHolds) {
+  const Mesh mesh = hemisphere();
+  const Result<AutoDart> made = autoDart(patchOfMesh(mesh), "bowl", Ratio::percent(5));
+  ASSERT_TRUE(made) << made.error();
+  EXPECT_GT(made->errorBefore, 0.4);
+  EXPECT_LE(made->flat->meanAreaError, 0.05);
+  EXPECT_TRUE(made->flat->check.passes());
+  EXPECT_GE(made->darts.size(), 2U);
+  EXPECT_LE(made->darts.size(), 6U);
+  for (const DartProposal& dart : made->darts) {
+    EXPECT_EQ(dart.kind, DartProposal::Kind::Dart);
+    EXPECT_GT(dart.intake, 10);
+    EXPECT_LT(dart.errorAfter, 0.9 * dart.errorBefore);
+  }
+  // The two sides of a dart are sewn together: their edges have the same lengths.
+  for (std::size_t d = 1; d <= made->darts.size(); ++d) {
+    std::vector<const Wire*> sides;
+    for (const Wire& wire : made->piece.wires) {
+      if (wire.curve == "autodart-" + std::to_string(d)) sides.push_back(&wire);
+    }
+    ASSERT_EQ(sides.size(), 2U);
+    std::vector<double> back = sides[1]->targetLength;
+    std::reverse(back.begin(), back.end());
+    EXPECT_EQ(sides[0]->targetLength, back);
+  }
+  // Faces are only re-cut: each part lies in its source, together they are as large.
+  ASSERT_EQ(made->patch.sourceFace.size(), made->patch.mesh.faceCount());
+  FaceData<double> area(mesh.faceCount(), 0.0);
+  for (std::size_t f = 0; f < made->patch.mesh.faceCount(); ++f) {
+    area[made->patch.sourceFace[FaceId(f)]] += made->patch.mesh.area(FaceId(f));
+  }
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    EXPECT_NEAR(area[FaceId(f)], mesh.area(FaceId(f)), 1e-6 * mesh.area(FaceId(f)));
+  }
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    EXPECT_EQ(made->patch.mesh.position(VertexId(v)), mesh.position(VertexId(v)));
+  }
+}
+
+TEST(Darts, AreNotPutWhereNoneIsNeeded) {
+  const Result<AutoDart> made =
+      autoDart(patchOfMesh(test::halfCylinder(80, 300, 16, 20)), "sleeve", Ratio::percent(5));
+  ASSERT_TRUE(made) << made.error();
+  EXPECT_TRUE(made->darts.empty());
+  EXPECT_TRUE(made->findings.empty());
+}
+
+TEST(Darts, ASaddleWantsAGusset) {
+  const Result<AutoDart> made =
+      autoDart(patchOfMesh(test::saddle(20, 10, 0.02)), "crotch", Ratio::percent(2));
+  ASSERT_TRUE(made) << made.error();
+  EXPECT_LT(made->forced.bulge, 0);
+  EXPECT_TRUE(made->darts.empty());
+  ASSERT_EQ(made->findings.size(), 1U);
+  EXPECT_EQ(made->findings[0].code, "needs-cut");
+  EXPECT_THAT(made->findings[0].message, testing::HasSubstr("gusset"));
+}
+
+TEST(Darts, CrossNoLineOfThePiece) {
+  const Mesh dome = test::heightField(20, 20, 10, [](double x, double y) {
+    return 70 * std::sin(x * std::numbers::pi / 200) * std::sin(y * std::numbers::pi / 200);
+  });
+  PolygonSoup::Chain line{"wire_feature_quarter", {}, 0};
+  for (std::uint32_t i = 0; i <= 20; ++i) line.vertices.push_back(5 * 21 + i);
+  const Piece piece = test::patchOf(dome, {line});
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  const auto proposals = adviseDarts(piece, *flat);
+  ASSERT_TRUE(proposals) << proposals.error();
+  ASSERT_FALSE(proposals->empty());
+  for (const DartProposal& proposal : *proposals) {
+    const double mouth = position(dome, proposal.path.points.front()).y();
+    for (const SurfacePoint& p : proposal.path.points) {
+      EXPECT_EQ(position(dome, p).y() > 50, mouth > 50);
+    }
+    EXPECT_LT(proposal.errorAfter, proposal.errorBefore);
+  }
+  EXPECT_TRUE(std::is_sorted(
+      proposals->begin(), proposals->end(),
+      [](const DartProposal& a, const DartProposal& b) { return a.errorAfter < b.errorAfter; }));
+}
+
+TEST(Darts, RefusesOptionsOutOfRange) {
+  const Piece piece = test::patchOf(test::grid(4, 4));
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat);
+  const auto refused = adviseDarts(piece, *flat, {.maxProposals = 0});
+  ASSERT_FALSE(refused);
+  EXPECT_EQ(refused.error().code, ErrorCode::InvalidArgument);
+}
+
+}  // namespace
+}  // namespace toile
