@@ -27,10 +27,11 @@ struct Suit {
   std::set<std::string> hems;    ///< curves without the -l and -r
 };
 
-const Suit kFull{"wetsuit-full.toile",
-                 {"front", "collar"},
-                 {"back", "sleeve", "underarm", "side", "back-leg", "thigh", "knee", "shin", "calf"},
-                 {"collar-top", "wrist", "ankle"}};
+const Suit kFull{
+    "wetsuit-full.toile",
+    {"front", "collar"},
+    {"back", "sleeve", "underarm", "side", "back-leg", "thigh", "knee", "shin", "calf"},
+    {"collar-top", "wrist", "ankle"}};
 const Suit kShort{"wetsuit-short.toile",
                   {"collar", "front-lower", "back"},
                   {"yoke", "front", "side", "seat", "thigh"},
@@ -53,7 +54,8 @@ class ModelFile {
               ("toile-suits-" + std::to_string(getpid()) + ".model.json")) {
     std::ofstream(path_) << "{\"toile-model\": 1, \"units\": \"mm\", \"mesh\": " << mesh
                          << ", \"curves\": " << mesh.parent_path() / "curves.json"
-                         << ", \"landmarks\": " << mesh.parent_path() / "landmarks.json" << "}\n";
+                         << ", \"landmarks\": " << mesh.parent_path() / "landmarks.json"
+                         << "}\n";
   }
   ~ModelFile() { fs::remove(path_); }
   ModelFile(const ModelFile&) = delete;
@@ -141,18 +143,18 @@ TEST_P(SuitOnBody, EveryPiecePassesEveryCheck) {
 
 INSTANTIATE_TEST_SUITE_P(
     Bodies, SuitOnBody,
-    testing::Values(
-        Case{&kFull, "female_average", 0.04}, Case{&kFull, "male_average", 0.04},
-        Case{&kFull, "female_tall_slim", 0.04}, Case{&kFull, "male_heavy", 0.04},
-        Case{&kFull, "child_10y", 0.04}, Case{&kFull, "elderly", 0.04},
-        Case{&kFull, "female_average_arms_raised", 0.04},
-        Case{&kFull, "male_average_knee_bent", 0.06}, Case{&kFull, "female_tall_slim_cycling", 0.07},
-        Case{&kShort, "female_average", 0.04}, Case{&kShort, "male_average", 0.04},
-        Case{&kShort, "female_tall_slim", 0.04}, Case{&kShort, "male_heavy", 0.04},
-        Case{&kShort, "child_10y", 0.04}, Case{&kShort, "elderly", 0.045},
-        Case{&kShort, "female_average_arms_raised", 0.04},
-        Case{&kShort, "male_average_knee_bent", 0.045},
-        Case{&kShort, "female_tall_slim_cycling", 0.045}));
+    testing::Values(Case{&kFull, "female_average", 0.04}, Case{&kFull, "male_average", 0.04},
+                    Case{&kFull, "female_tall_slim", 0.04}, Case{&kFull, "male_heavy", 0.04},
+                    Case{&kFull, "child_10y", 0.04}, Case{&kFull, "elderly", 0.04},
+                    Case{&kFull, "female_average_arms_raised", 0.04},
+                    Case{&kFull, "male_average_knee_bent", 0.06},
+                    Case{&kFull, "female_tall_slim_cycling", 0.07},
+                    Case{&kShort, "female_average", 0.04}, Case{&kShort, "male_average", 0.04},
+                    Case{&kShort, "female_tall_slim", 0.04}, Case{&kShort, "male_heavy", 0.04},
+                    Case{&kShort, "child_10y", 0.04}, Case{&kShort, "elderly", 0.045},
+                    Case{&kShort, "female_average_arms_raised", 0.04},
+                    Case{&kShort, "male_average_knee_bent", 0.045},
+                    Case{&kShort, "female_tall_slim_cycling", 0.045}));
 
 /// Total target length of each curve's runs in each piece.
 std::map<std::pair<std::string, std::string>, double> lengthsByCurve(const CutResult& cut) {
@@ -194,8 +196,7 @@ TEST(Suits, LeftAndRightAreEqualOnASymmetricBody) {
 
 TEST(Suits, KeepTheLinesOfTheBody) {
   for (const Suit* suit : {&kFull, &kShort}) {
-    const Result<Design> design =
-        readDesign(fs::path(TOILE_SOURCE_DIR) / "examples" / suit->file);
+    const Result<Design> design = readDesign(fs::path(TOILE_SOURCE_DIR) / "examples" / suit->file);
     ASSERT_TRUE(design) << design.error();
     std::map<std::string, CurveKind> kinds;
     for (const StylingCurve& curve : design->curves) kinds[curve.id] = curve.kind;
@@ -210,8 +211,7 @@ TEST(Suits, KeepTheLinesOfTheBody) {
 
 TEST(Suits, NameLeftAndRight) {
   for (const Suit* suit : {&kFull, &kShort}) {
-    const Result<Design> design =
-        readDesign(fs::path(TOILE_SOURCE_DIR) / "examples" / suit->file);
+    const Result<Design> design = readDesign(fs::path(TOILE_SOURCE_DIR) / "examples" / suit->file);
     ASSERT_TRUE(design) << design.error();
     std::map<std::string, std::string> names;
     for (const PieceRecord& piece : design->pieces) names[piece.id] = piece.name;
