@@ -165,7 +165,7 @@ Place readPlace(const JsonPlace& at) {
   JsonObject object(at);
   const auto between = object.find("between");
   if (!between) {
-    return std::visit([](auto&& place) { return Place(std::move(place)); }, readSinglePlace(at));
+    return std::visit([](const auto& place) { return Place(place); }, readSinglePlace(at));
   }
   BetweenPlaces place;
   const std::vector<JsonPlace> ends = between->items(2);

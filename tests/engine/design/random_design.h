@@ -109,7 +109,7 @@ class RandomDesign {
     if (below(5) == 0) {
       return BetweenPlaces{{singlePlace(design), singlePlace(design)}, fraction(), unknown()};
     }
-    return std::visit([](auto&& single) { return Place(std::move(single)); }, singlePlace(design));
+    return std::visit([](const auto& single) { return Place(single); }, singlePlace(design));
   }
   std::vector<Place> places(const Design& design) {
     std::vector<Place> out;
