@@ -4,6 +4,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <utility>
 
 namespace toile::test {
 
@@ -20,9 +21,9 @@ bool isTestDataRequired();
 
 /// Declares `name` as the file of that name, or skips the test, saying so.
 #define TOILE_TEST_DATA_OR_SKIP(name, relative)                                                \
-  const auto name##Found = ::toile::test::findTestData(relative);                              \
+  auto name##Found = ::toile::test::findTestData(relative);                                    \
   if (!name##Found) {                                                                          \
     if (::toile::test::isTestDataRequired()) FAIL() << "test data is missing: " << (relative); \
     GTEST_SKIP() << "no test data " << (relative) << "; set TOILE_TEST_DATA to its folder";    \
   }                                                                                            \
-  const std::filesystem::path name = *name##Found
+  const std::filesystem::path name = *std::move(name##Found)

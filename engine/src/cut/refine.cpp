@@ -5,6 +5,7 @@
 
 #include "cut/face_segments.h"
 #include "cut/face_triangulation.h"
+#include "cut/joined_ends.h"
 #include "toile/core/parallel.h"
 #include "toile/cut/cut.h"
 
@@ -76,15 +77,18 @@ class Refiner {
  private:
   /// Curve points become nodes in the order of where they lie, not of who drew them.
   Result<void> placeSegments() {
-    std::vector<Node> rounded;
     for (const PlacedCurve& curve : curves_) {
-      if (!isWire(curve.kind)) continue;
-      if (!isValid(mesh_, curve.path)) {
+      if (isWire(curve.kind) && !isValid(mesh_, curve.path)) {
         return Error{ErrorCode::CurveInvalid,
                      "curve \"" + curve.id + "\" does not lie on this model; draw it again",
                      {Element::curve(curve.id)}};
       }
-      for (const SurfacePoint& point : curve.path.points) rounded.push_back(roundToLattice(point));
+    }
+    const std::vector<SurfacePath> paths = cutting::withJoinedEnds(mesh_, curves_);
+    std::vector<Node> rounded;
+    for (std::size_t c = 0; c < curves_.size(); ++c) {
+      if (!isWire(curves_[c].kind)) continue;
+      for (const SurfacePoint& point : paths[c].points) rounded.push_back(roundToLattice(point));
     }
     std::vector<Node> sorted = rounded;
     std::sort(sorted.begin(), sorted.end());
@@ -95,18 +99,18 @@ class Refiner {
 
     std::size_t next = 0;
     for (std::size_t c = 0; c < curves_.size(); ++c) {
-      const PlacedCurve& curve = curves_[c];
-      if (!isWire(curve.kind)) continue;
-      const std::size_t count = curve.path.points.size();
+      if (!isWire(curves_[c].kind)) continue;
+      const SurfacePath& path = paths[c];
+      const std::size_t count = path.points.size();
       std::vector<Node> chain;
       for (std::size_t i = 0; i < count; ++i) {
         const auto found = std::lower_bound(sorted.begin(), sorted.end(), rounded[next++]);
         chain.push_back(nodes[static_cast<std::size_t>(found - sorted.begin())]);
       }
-      for (std::size_t i = 0; i < curve.path.faceOfSegment.size(); ++i) {
-        inFace_[curve.path.faceOfSegment[i].index()].push_back(
-            cutting::makeSegment(chain[i], chain[i + 1 < count ? i + 1 : 0], rankOf(curve.kind),
-                                 static_cast<std::uint32_t>(c)));
+      for (std::size_t i = 0; i < path.faceOfSegment.size(); ++i) {
+        inFace_[path.faceOfSegment[i].index()].push_back(
+            cutting::makeSegment(chain[i], chain[i + 1 < count ? i + 1 : 0],
+                                 rankOf(curves_[c].kind), static_cast<std::uint32_t>(c)));
       }
     }
     return {};

@@ -4,6 +4,7 @@
 
 #include "design/design_names.h"
 #include "design/json_object.h"
+#include "design/single_places.h"
 #include "toile/core/file.h"
 #include "toile/design/design_file.h"
 
@@ -126,7 +127,7 @@ SectionPlane readPlane(const JsonPlace& at) {
   return plane;
 }
 
-Place readPlace(const JsonPlace& at) {
+SinglePlace readSinglePlace(const JsonPlace& at) {
   JsonObject object(at);
   if (const auto landmark = object.find("landmark")) {
     const std::string name = readName(*landmark);
@@ -151,12 +152,27 @@ Place readPlace(const JsonPlace& at) {
     const Eigen::Vector3d position = near->vector<3>();
     return NearPosition{position, object.unknown()};
   }
+  if (object.has("between")) at.fail("the ends of \"between\" are no \"between\" themselves");
   if (!object.has("vertex") && !object.has("edge") && !object.has("face")) {
     at.fail(
-        "a place has one of \"landmark\", \"curve\", \"line\", \"section\", \"near\", \"vertex\", "
-        "\"edge\", \"face\"");
+        "a place has one of \"landmark\", \"curve\", \"line\", \"between\", \"section\", \"near\", "
+        "\"vertex\", \"edge\", \"face\"");
   }
   return readModelPoint(at);
+}
+
+Place readPlace(const JsonPlace& at) {
+  JsonObject object(at);
+  const auto between = object.find("between");
+  if (!between) {
+    return std::visit([](const auto& place) { return Place(place); }, readSinglePlace(at));
+  }
+  BetweenPlaces place;
+  const std::vector<JsonPlace> ends = between->items(2);
+  for (std::size_t i = 0; i < ends.size(); ++i) place.ends[i] = readSinglePlace(ends[i]);
+  place.fraction = object.need("at").numberIn(0, 1);
+  place.unknown = object.unknown();
+  return place;
 }
 
 std::vector<Place> readPlaces(const JsonPlace& at) {
@@ -432,7 +448,8 @@ class KnownIds {
             suggestion(id, std::vector<std::string>(ids_.begin(), ids_.end())));
   }
   void check(const Place& place, const JsonPlace& at) const {
-    if (const auto* onLine = std::get_if<OnStylingCurve>(&place)) check(onLine->id, at);
+    detail::forEachOfKind<OnStylingCurve>(
+        place, [&](const OnStylingCurve& onLine) { check(onLine.id, at); });
   }
 
  private:

@@ -120,37 +120,43 @@ std::string text(const SectionPlane& plane) {
   return out.addUnknown(plane.unknown).row();
 }
 
+struct PlaceMembers {
+  Members operator()(const ModelPoint& point) const { return members(point); }
+  Members operator()(const AtLandmark& p) const {
+    return Members().add("landmark", quoteJson(p.name)).addUnknown(p.unknown);
+  }
+  Members operator()(const OnModelCurve& p) const {
+    return Members()
+        .add("curve", quoteJson(p.name))
+        .add("at", formatExact(p.fraction))
+        .addUnknown(p.unknown);
+  }
+  Members operator()(const OnStylingCurve& p) const {
+    return Members()
+        .add("line", quoteJson(p.id))
+        .add("at", formatExact(p.fraction))
+        .addUnknown(p.unknown);
+  }
+  Members operator()(const OnSection& p) const {
+    return Members()
+        .add("section", text(p.plane))
+        .add("direction", numbers(p.direction))
+        .addUnknown(p.unknown);
+  }
+  Members operator()(const NearPosition& p) const {
+    return Members().add("near", numbers(p.position)).addUnknown(p.unknown);
+  }
+  Members operator()(const BetweenPlaces& p) const {
+    const auto end = [this](const SinglePlace& place) { return std::visit(*this, place).row(); };
+    return Members()
+        .add("between", row(each(p.ends, end)))
+        .add("at", formatExact(p.fraction))
+        .addUnknown(p.unknown);
+  }
+};
+
 std::string text(const Place& place) {
-  const Members out =
-      std::visit(Overloaded{
-                     [](const ModelPoint& point) { return members(point); },
-                     [](const AtLandmark& p) {
-                       return Members().add("landmark", quoteJson(p.name)).addUnknown(p.unknown);
-                     },
-                     [](const OnModelCurve& p) {
-                       return Members()
-                           .add("curve", quoteJson(p.name))
-                           .add("at", formatExact(p.fraction))
-                           .addUnknown(p.unknown);
-                     },
-                     [](const OnStylingCurve& p) {
-                       return Members()
-                           .add("line", quoteJson(p.id))
-                           .add("at", formatExact(p.fraction))
-                           .addUnknown(p.unknown);
-                     },
-                     [](const OnSection& p) {
-                       return Members()
-                           .add("section", text(p.plane))
-                           .add("direction", numbers(p.direction))
-                           .addUnknown(p.unknown);
-                     },
-                     [](const NearPosition& p) {
-                       return Members().add("near", numbers(p.position)).addUnknown(p.unknown);
-                     },
-                 },
-                 place);
-  return out.row();
+  return std::visit(PlaceMembers(), place).row();
 }
 
 std::string places(const std::vector<Place>& list, int indent) {

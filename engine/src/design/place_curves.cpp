@@ -6,6 +6,7 @@
 
 #include "design/mirror.h"
 #include "design/section_loop.h"
+#include "design/single_places.h"
 #include "design/smooth_points.h"
 #include "toile/curve/geodesic.h"
 #include "toile/design/design.h"
@@ -25,7 +26,9 @@ struct Way {
 
 bool holdsModelPoints(const Design& design) {
   const auto isModelPoint = [](const Place& place) {
-    return std::holds_alternative<ModelPoint>(place);
+    bool found = false;
+    detail::forEachOfKind<ModelPoint>(place, [&](const ModelPoint&) { found = true; });
+    return found;
   };
   for (const StylingCurve& curve : design.curves) {
     if (!curve.dataPoints.empty() || std::holds_alternative<AlongVertices>(curve.way)) return true;
@@ -130,7 +133,8 @@ class CurvePlacer {
     } else {
       const auto gather = [&](const std::vector<Place>& controls) {
         for (const Place& place : controls) {
-          if (const auto* on = std::get_if<OnStylingCurve>(&place)) needed.push_back(on->id);
+          detail::forEachOfKind<OnStylingCurve>(
+              place, [&](const OnStylingCurve& on) { needed.push_back(on.id); });
         }
       };
       if (const auto* smooth = std::get_if<SmoothWay>(&curve.way)) gather(smooth->controls);

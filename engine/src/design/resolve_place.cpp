@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "design/section_loop.h"
+#include "toile/curve/geodesic.h"
 #include "toile/design/design.h"
 
 namespace toile {
@@ -58,6 +59,16 @@ struct Resolver {
       return Error{ErrorCode::InvalidArgument, "a position must be three finite numbers", {}};
     }
     return model.index->closestPoint(near.position).point;
+  }
+  Result<SurfacePoint> operator()(const BetweenPlaces& between) const {
+    const Result<SurfacePoint> from = std::visit(*this, between.ends[0]);
+    if (!from) return from.error();
+    const Result<SurfacePoint> to = std::visit(*this, between.ends[1]);
+    if (!to) return to.error();
+    if (*from == *to) return *from;
+    const Result<SurfacePath> way = GeodesicLinker(model.mesh).link(*from, *to);
+    if (!way) return way.error();
+    return atFraction(*model.mesh, *way, between.fraction);
   }
 };
 

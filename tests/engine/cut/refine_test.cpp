@@ -3,11 +3,14 @@
 
 #include <Eigen/Geometry>
 #include <cmath>
+#include <memory>
 #include <numbers>
+#include <random>
 
 #include "support/drawn_curves.h"
 #include "support/meshes.h"
 #include "support/result_printing.h"
+#include "toile/curve/geodesic.h"
 #include "toile/cut/cut.h"
 
 namespace toile {
@@ -110,6 +113,53 @@ TEST(Refine, LeavesAMeshWithoutCurvesAsItIs) {
   EXPECT_EQ(refined->mesh.triangles(), mesh.triangles());
   EXPECT_EQ(refined->mesh.positions(), mesh.positions());
   EXPECT_TRUE(refined->cutEdges.empty());
+}
+
+/// Vertices inside the mesh at which a single edge of the cut ends.
+std::size_t looseEnds(const RefinedMesh& refined) {
+  std::vector<std::size_t> degree(refined.mesh.vertexCount(), 0);
+  for (std::size_t i = 0; i < refined.mesh.edgeCount(); ++i) {
+    const EdgeId e(i);
+    if (!refined.cutEdge[e].isValid() || refined.mesh.isBorder(e)) continue;
+    ++degree[refined.mesh.tail(e).index()];
+    ++degree[refined.mesh.head(e).index()];
+  }
+  std::size_t loose = 0;
+  for (std::size_t v = 0; v < degree.size(); ++v) {
+    if (degree[v] == 1 && !refined.mesh.isBorder(VertexId(v))) ++loose;
+  }
+  return loose;
+}
+
+// A seam ends on another one within the merge distance of a mesh edge, so that its end becomes a
+// node of that edge, farther from the other seam than what leads it through a node.
+TEST(Refine, KeepsEndsOnTheLinesTheyWereDrawnTo) {
+  const Mesh mesh = test::grid(2, 1);
+  std::mt19937_64 random(4);
+  std::uniform_real_distribution<double> uniform(0, 1);
+  GeodesicLinker linker(std::make_shared<const Mesh>(mesh));
+  for (int trial = 0; trial < 2000; ++trial) {
+    const double tilt = std::numbers::pi * (uniform(random) - 0.5) / 2;
+    const auto sections = test::planeSections(
+        mesh, Eigen::Vector3d(std::sin(tilt), std::cos(tilt), 0), 4 + 2 * uniform(random));
+    ASSERT_FALSE(sections.empty());
+    const SurfacePath& line = sections.front();
+    // Beside the second point, which is inside on a diagonal.
+    const double whole = length(mesh, line);
+    const double from = length(mesh, {{line.points[0], line.points[1]}, {line.faceOfSegment[0]}});
+    const double beside = 2 * kMergeDistanceMm * (2 * uniform(random) - 1);
+    const SurfacePoint end = pointAtFraction(mesh, line, (from + beside) / whole);
+    const SurfacePoint start =
+        makeSurfacePoint(mesh, FaceId(std::size_t{random() % mesh.faceCount()}), {0.3, 0.3, 0.4});
+    const Result<SurfacePath> seam = linker.link(start, end);
+    ASSERT_TRUE(seam) << seam.error();
+    const Result<RefinedMesh> refined = refine(
+        mesh,
+        std::vector{drawn("line", CurveKind::Seam, line), drawn("seam", CurveKind::Seam, *seam)});
+    ASSERT_TRUE(refined) << refined.error();
+    expectRefines(mesh, *refined);
+    ASSERT_EQ(looseEnds(*refined), 1U) << "trial " << trial;
+  }
 }
 
 // Two cells of 10 mm: the line from the middle of the left side to the middle of the right one

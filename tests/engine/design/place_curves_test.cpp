@@ -125,6 +125,27 @@ TEST(ResolvePlace, KnowsEveryKindOfPlace) {
   EXPECT_LT((position(mesh, resolve(section)) - Vector3d(0, -60, 240)).norm(), 1e-9);
 }
 
+TEST(ResolvePlace, GoesTheShortestWayBetweenTwoPlaces) {
+  const ReferenceModel model = tube();
+  const Mesh& mesh = *model.mesh;
+  const auto resolve = [&](const Place& place) {
+    const Result<SurfacePoint> point = resolvePlace(place, model, {});
+    EXPECT_TRUE(point) << point.error();
+    return point ? *point : SurfacePoint();
+  };
+  const NearPosition low{{60, 0, 33}, {}};
+  const NearPosition high{{60, 0, 93}, {}};
+  EXPECT_LT(
+      (position(mesh, resolve(BetweenPlaces{{low, high}, 0.25, {}})) - Vector3d(60, 0, 48)).norm(),
+      1e-9);
+  EXPECT_EQ(resolve(BetweenPlaces{{low, high}, 0, {}}), resolve(low));
+  EXPECT_EQ(resolve(BetweenPlaces{{low, low}, 0.5, {}}), resolve(low));
+  const Result<SurfacePoint> wrong =
+      resolvePlace(BetweenPlaces{{low, AtLandmark{"lwo", {}}}, 0.5, {}}, model, {});
+  ASSERT_FALSE(wrong);
+  EXPECT_EQ(wrong.error().code, ErrorCode::NameNotFound);
+}
+
 TEST(ResolvePlace, RefusesWhatIsNotThere) {
   const ReferenceModel model = tube();
   const auto error = [&](const Place& place) {

@@ -88,7 +88,7 @@ class RandomDesign {
     plane.unknown = unknown();
     return plane;
   }
-  Place place(const Design& design) {
+  SinglePlace singlePlace(const Design& design) {
     switch (below(7)) {
       case 0:
         return AtLandmark{"waist_front", unknown()};
@@ -104,6 +104,12 @@ class RandomDesign {
       default:
         return modelPoint();
     }
+  }
+  Place place(const Design& design) {
+    if (below(5) == 0) {
+      return BetweenPlaces{{singlePlace(design), singlePlace(design)}, fraction(), unknown()};
+    }
+    return std::visit([](const auto& single) { return Place(single); }, singlePlace(design));
   }
   std::vector<Place> places(const Design& design) {
     std::vector<Place> out;

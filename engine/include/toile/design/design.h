@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -108,8 +109,20 @@ struct NearPosition {
   friend bool operator==(const NearPosition&, const NearPosition&) = default;
 };
 
-using Place =
+/// A place that stands by itself.
+using SinglePlace =
     std::variant<ModelPoint, AtLandmark, OnModelCurve, OnStylingCurve, OnSection, NearPosition>;
+
+/// A fraction of the shortest way on the surface between two places.
+struct BetweenPlaces {
+  std::array<SinglePlace, 2> ends;
+  double fraction = 0.5;  ///< 0..1
+  UnknownKeys unknown{};
+  friend bool operator==(const BetweenPlaces&, const BetweenPlaces&) = default;
+};
+
+using Place = std::variant<ModelPoint, AtLandmark, OnModelCurve, OnStylingCurve, OnSection,
+                           NearPosition, BetweenPlaces>;
 
 /// Control points, subdivided and put on the surface by closest point.
 struct SmoothWay {
