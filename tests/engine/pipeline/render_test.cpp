@@ -45,17 +45,7 @@ struct Decoded {
   }
 };
 
-class Preview : public testing::Test {
- protected:
-  static void SetUpTestSuite() {
-    const Result<Pattern> made = makePattern(sleeveDocument());
-    ASSERT_TRUE(made) << made.error();
-    pattern_ = new Pattern(*made);
-  }
-  static void TearDownTestSuite() { delete pattern_; }
-  static Pattern* pattern_;
-};
-Pattern* Preview::pattern_ = nullptr;
+class Preview : public SleevePattern {};
 
 TEST_F(Preview, ShowsGroundSheetLinesAndTints) {
   const Result<std::string> png = renderPreview(*pattern_, {.width = 1000, .height = 600});
