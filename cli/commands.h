@@ -10,5 +10,6 @@ void addMake(CLI::App& app, Session& session);
 void addCheck(CLI::App& app, Session& session);
 void addUnfold(CLI::App& app, Session& session);
 void addBody(CLI::App& app, Session& session);
+void addRender(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

@@ -26,7 +26,7 @@ struct Product {
 std::vector<Product> productsOf(const Pattern& pattern) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
-       [&] { return renderPreview(pattern); }},
+       [&] { return renderPattern(pattern); }},
       {"pattern.pdf", "the pieces at 1:1, to print", [&] { return writePdf(pattern); }},
       {"report.html", "every piece, every seam length, findings, for the browser",
        [&] { return Result<std::string>(writeReportHtml(pattern)); }},
