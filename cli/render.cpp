@@ -113,8 +113,8 @@ int run(const Arguments& arguments, const Session& session) {
   }
   TerminalProgress progress;
   progress.step("open " + arguments.in);
-  const Drawn drawn = isDesign ? drawDesign(arguments, session, progress)
-                               : drawModel(arguments, session, progress);
+  const Drawn drawn =
+      isDesign ? drawDesign(arguments, session, progress) : drawModel(arguments, session, progress);
   if (!drawn.png) return fail(drawn.png.error());
   const Result<void> written = writeFileWhole(arguments.out, *drawn.png);
   if (!written) return fail(written.error());
@@ -171,11 +171,11 @@ void addRender(CLI::App& app, Session& session) {
       *command, "--lines", options.lines,
       {{"all", RenderLines::All}, {"seams", RenderLines::Seams}, {"none", RenderLines::None}},
       "Which lines are drawn on the model");
-  addChoice<RenderPieces>(
-      *command, "--pieces", options.pieces,
-      {{"cloth", RenderPieces::Cloth}, {"strain", RenderPieces::Strain},
-       {"none", RenderPieces::None}},
-      "The pieces beside it, in their colours or coloured by strain");
+  addChoice<RenderPieces>(*command, "--pieces", options.pieces,
+                          {{"cloth", RenderPieces::Cloth},
+                           {"strain", RenderPieces::Strain},
+                           {"none", RenderPieces::None}},
+                          "The pieces beside it, in their colours or coloured by strain");
   addParsed(*command, "--explode", options.explode, parseRatio,
             "How far the pieces stand off the model, 0% to 200%")
       ->type_name("PERCENT");

@@ -62,15 +62,14 @@ TEST_F(Render, EveryOptionChangesThePicture) {
   const std::vector<std::string> small = {"--size", "240x160"};
   ASSERT_EQ(run(kSleeve, small).status, 0);
   const std::string usual = readText(out_);
-  for (const std::vector<std::string>& more :
-       {std::vector<std::string>{"--view", "back,10,20"},
-        {"--view", "none"},
-        {"--style", "plain"},
-        {"--lines", "none"},
-        {"--pieces", "strain"},
-        {"--pieces", "none"},
-        {"--explode", "30%"},
-        {"--no-captions"}}) {
+  for (const std::vector<std::string>& more : {std::vector<std::string>{"--view", "back,10,20"},
+                                               {"--view", "none"},
+                                               {"--style", "plain"},
+                                               {"--lines", "none"},
+                                               {"--pieces", "strain"},
+                                               {"--pieces", "none"},
+                                               {"--explode", "30%"},
+                                               {"--no-captions"}}) {
     std::vector<std::string> words = small;
     words.insert(words.end(), more.begin(), more.end());
     const ProgramResult result = run(kSleeve, words);

@@ -39,9 +39,8 @@ Eigen::Vector3f displayOf(Colour c) {
 }
 
 Eigen::Vector3f linearOf(Colour c) {
-  return displayOf(c).unaryExpr([](float s) {
-    return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F);
-  });
+  return displayOf(c).unaryExpr(
+      [](float s) { return s <= 0.04045F ? s / 12.92F : std::pow((s + 0.055F) / 1.055F, 2.4F); });
 }
 
 Eigen::Vector3f toDisplay(const Eigen::Vector3f& linear) {
@@ -50,8 +49,8 @@ Eigen::Vector3f toDisplay(const Eigen::Vector3f& linear) {
     std::vector<float> values(kSteps + 1);
     for (int i = 0; i <= kSteps; ++i) {
       const double c = static_cast<double>(i) / kSteps;
-      values[static_cast<std::size_t>(i)] = static_cast<float>(
-          c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
+      values[static_cast<std::size_t>(i)] =
+          static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
     }
     return values;
   }();

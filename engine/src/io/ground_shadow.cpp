@@ -26,8 +26,8 @@ GroundShadow::GroundShadow(const RayScene& scene, const Vector3f& low, const Vec
   std::vector<Vector3f> points;
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
-      points.emplace_back(corner_ + step_ * Vector3f(static_cast<float>(column),
-                                                     static_cast<float>(row), 0));
+      points.emplace_back(corner_ +
+                          step_ * Vector3f(static_cast<float>(column), static_cast<float>(row), 0));
     }
   }
   const std::vector<Vector3f> normals(points.size(), Vector3f::UnitZ());
@@ -45,8 +45,8 @@ std::vector<float> GroundShadow::darkness(std::span<const Vector3f> light) const
     for (int column = 0; column < columns_; ++column) {
       const std::size_t i = index(column, row);
       const float lit = irradiance(sky_, sky_.open[i], light, Vector3f::UnitZ()).mean() / full;
-      const auto toRim = static_cast<float>(
-          std::min({column, row, columns_ - 1 - column, rows_ - 1 - row}));
+      const auto toRim =
+          static_cast<float>(std::min({column, row, columns_ - 1 - column, rows_ - 1 - row}));
       result[i] = (1 - lit) * std::min(1.0F, toRim * step_ / (0.2F * step_ * kPoints));
     }
   }
@@ -65,6 +65,12 @@ std::vector<float> GroundShadow::darkness(std::span<const Vector3f> light) const
     result = std::move(smooth);
   }
   return result;
+}
+
+std::array<Vector3f, 4> GroundShadow::corners() const {
+  const Vector3f x(step_ * static_cast<float>(columns_ - 1), 0, 0);
+  const Vector3f y(0, step_ * static_cast<float>(rows_ - 1), 0);
+  return {corner_, corner_ + x, corner_ + x + y, corner_ + y};
 }
 
 float GroundShadow::at(const std::vector<float>& darkness, const Vector3f& origin,

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <span>
 #include <vector>
 
@@ -21,6 +22,8 @@ class GroundShadow {
   /// Where a ray meets the ground; 0 beside the grid and where it does not.
   [[nodiscard]] float at(const std::vector<float>& darkness, const Eigen::Vector3f& origin,
                          const Eigen::Vector3f& direction) const;
+  /// Beyond these there is none.
+  [[nodiscard]] std::array<Eigen::Vector3f, 4> corners() const;
   [[nodiscard]] const SkyView& sky() const { return sky_; }
 
  private:

@@ -120,8 +120,8 @@ bool inkPlain(Painted& at, const SurfaceLines::Pass& pass, float unit) {
 
 Cloth makeCloth(Colour colour) {
   const bool dark = lightness(colour) < 0.55;
-  const Colour thread = dark ? mix(colour, colourOf(0xFFFFFF), 0.62)
-                             : mix(colour, colourOf(0x1E2227), 0.50);
+  const Colour thread =
+      dark ? mix(colour, colourOf(0xFFFFFF), 0.62) : mix(colour, colourOf(0x1E2227), 0.50);
   return {linearOf(colour), linearOf(thread)};
 }
 
@@ -141,8 +141,8 @@ Painted paintProduct(const SurfaceLines::Near& near, const Cloth& cloth, float u
   const SurfaceLines::Pass& zip = near.zip;
   const SurfaceLines::Pass& border = near.border;
   // The tape lies over the seams that end at it.
-  if (zip.line != nullptr && (border.line == nullptr || zip.across < border.across ||
-                              zip.across < kTapeEdge * unit)) {
+  if (zip.line != nullptr &&
+      (border.line == nullptr || zip.across < border.across || zip.across < kTapeEdge * unit)) {
     paintZip(at, cloth, zip, unit);
   } else if (border.line != nullptr) {
     const float d = border.across / unit;

@@ -27,8 +27,8 @@ struct Painted {
 /// Beyond that many px of the line styles no line is painted.
 inline constexpr float kPaintReach = 8;
 
-/// Seams flatlocked with a row of stitches on either side, hems with one, zips with teeth, tapes and
-/// slider, darts closed; inner lines hardly seen. @param unit mm per px of the line styles
+/// Seams flatlocked with a row of stitches on either side, hems with one, zips with teeth, tapes
+/// and slider, darts closed; inner lines hardly seen. @param unit mm per px of the line styles
 [[nodiscard]] Painted paintProduct(const SurfaceLines::Near& near, const Cloth& cloth, float unit);
 
 /// The lines in the colours and dashes of their kinds.

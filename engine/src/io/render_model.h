@@ -38,7 +38,9 @@ class ModelRenderer {
   void draw(Picture& picture, const Frame& frame, const RenderView& view) const;
 
  private:
+  struct Extent;
   struct Studio;
+  class Shot;
   std::unique_ptr<Studio> studio_;
 };
 

@@ -16,8 +16,8 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr double kShadeReach = 0.25;     // of the diagonal: nearer surface darkens
-constexpr double kAlongNormal = 0.12;    // of the diagonal: what explodes moves out so far as well
+constexpr double kShadeReach = 0.25;   // of the diagonal: nearer surface darkens
+constexpr double kAlongNormal = 0.12;  // of the diagonal: what explodes moves out so far as well
 constexpr Colour kBareModel = colourOf(0xCFC8BF);
 
 /// Normals weighted by angle, so that they do not depend on how a face is split.
@@ -118,8 +118,8 @@ class SceneBuilder {
     for (const Triangle& triangle : model_.triangles()) {
       for (const VertexId v : triangle) corners.push_back(v.index());
     }
-    scene_.sky = computeSkyView(RayScene::ofTriangles(points, corners), points,
-                                scene_.modelNormals, static_cast<float>(2e-4 * scene_.diagonal),
+    scene_.sky = computeSkyView(RayScene::ofTriangles(points, corners), points, scene_.modelNormals,
+                                static_cast<float>(2e-4 * scene_.diagonal),
                                 static_cast<float>(kShadeReach * scene_.diagonal));
     return std::move(scene_);
   }
@@ -164,7 +164,8 @@ std::vector<Vector3d> zipTops(const std::vector<Piece>& pieces) {
   }
   // Where one opening goes on in another the slider passes.
   std::erase_if(tops, [&lows](const Vector3d& top) {
-    return std::ranges::any_of(lows, [&top](const Vector3d& low) { return (low - top).norm() < 1; });
+    return std::ranges::any_of(lows,
+                               [&top](const Vector3d& low) { return (low - top).norm() < 1; });
   });
   return tops;
 }
@@ -235,8 +236,8 @@ RenderScene makeScene(const Pattern& pattern, const RenderOptions& options) {
   for (const PlacedCurve& curve : pattern.curves) {
     if (curve.kind != CurveKind::Mark) continue;
     builder.addLine({.role = LineRole::Mark,
-                               .plain = lineStyle(CurveKind::Mark),
-                               .points = pointsOf(model, curve.path)});
+                     .plain = lineStyle(CurveKind::Mark),
+                     .points = pointsOf(model, curve.path)});
   }
   return builder.finish();
 }

@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr std::size_t kRays = 1'600'000;  // for all points together
+constexpr std::size_t kRays = 1'000'000;  // for all points together
 constexpr std::size_t kLeastDirections = 24;
 // Grazing rays meet the facets of the surface itself.
 constexpr float kGrazing = 0.05F;
@@ -78,8 +78,8 @@ std::vector<Vector3f> studioLight(std::span<const Vector3f> directions, const Ve
   return light;
 }
 
-Vector3f irradiance(const SkyView& sky, const SkyView::Mask& open,
-                    std::span<const Vector3f> light, const Vector3f& normal) {
+Vector3f irradiance(const SkyView& sky, const SkyView::Mask& open, std::span<const Vector3f> light,
+                    const Vector3f& normal) {
   Vector3f sum = Vector3f::Zero();
   for (std::size_t k = 0; k < light.size(); ++k) {
     const float cosine = normal.dot(sky.directions[k]);

@@ -74,9 +74,8 @@ void SurfaceLines::prepare(float reach) {
   inBox_.resize(firstOfBox_.back());
   std::vector<std::uint32_t> next(firstOfBox_.begin(), firstOfBox_.end() - 1);
   for (std::size_t i = 0; i < stretches_.size(); ++i) {
-    forEachBox(stretches_[i], [&](std::size_t box) {
-      inBox_[next[box]++] = static_cast<std::uint32_t>(i);
-    });
+    forEachBox(stretches_[i],
+               [&](std::size_t box) { inBox_[next[box]++] = static_cast<std::uint32_t>(i); });
   }
 }
 

@@ -24,7 +24,7 @@ struct SurfaceLine {
   LineRole role = LineRole::Seam;
   LineStyle plain;                      ///< its look in plain pictures
   std::vector<Eigen::Vector3f> points;  ///< mm
-  bool turned = false;  ///< the points run against the piece: the other side of a zip
+  bool turned = false;     ///< the points run against the piece: the other side of a zip
   bool endsAtTop = false;  ///< of a zip: its slider is there
   float length = 0;        ///< mm, set by SurfaceLines
 };

@@ -14,10 +14,8 @@ using Eigen::Vector3f;
 
 /// A level square plate of that half width.
 RayScene plate(float half, float height) {
-  const std::vector<Vector3f> points = {{-half, -half, height},
-                                        {half, -half, height},
-                                        {half, half, height},
-                                        {-half, half, height}};
+  const std::vector<Vector3f> points = {
+      {-half, -half, height}, {half, -half, height}, {half, half, height}, {-half, half, height}};
   const std::vector<std::uint32_t> corners = {0, 1, 2, 0, 2, 3};
   return RayScene::ofTriangles(points, corners);
 }
@@ -47,8 +45,8 @@ TEST(StudioLight, APlateAboveTakesItsShareAway) {
     const SkyView sky = computeSkyView(scene, points, normals, 0, 1000);
     const float r = std::sqrt(half * half + 1);
     const float covered = 4 / 3.14159265F * half / r * std::atan(half / r);
-    EXPECT_NEAR(irradiance(sky, sky.open[0], lightFromEverywhere(sky), normals[0]).x(),
-                1 - covered, 0.04)
+    EXPECT_NEAR(irradiance(sky, sky.open[0], lightFromEverywhere(sky), normals[0]).x(), 1 - covered,
+                0.04)
         << half;
     // Out of reach it takes none.
     const SkyView near = computeSkyView(scene, points, normals, 0, 0.5F);
@@ -80,9 +78,8 @@ TEST(StudioLight, ComesFromTheLampAndFollowsTheCamera) {
 TEST(GroundShadow, IsDarkBelowAndGoneFarAway) {
   const RayScene scene = plate(100, 50);
   const GroundShadow shadow(scene, {-100, -100, 0}, {100, 100, 50});
-  const std::vector<float> darkness =
-      shadow.darkness(studioLight(shadow.sky().directions, Vector3f::UnitX(), Vector3f::UnitZ(),
-                                  -Vector3f::UnitY()));
+  const std::vector<float> darkness = shadow.darkness(studioLight(
+      shadow.sky().directions, Vector3f::UnitX(), Vector3f::UnitZ(), -Vector3f::UnitY()));
   const auto at = [&](float x, float y) {
     return shadow.at(darkness, {x, y, 500}, -Vector3f::UnitZ());
   };
