@@ -14,7 +14,7 @@ using Eigen::Vector2d;
 
 constexpr double kStep = 2;        // px between the points that stand for a line
 constexpr int kPlaces = 16;        // tried along the longer side of the piece
-constexpr double kMargin = 1.18;   // the box and a little air
+constexpr double kMargin = 1.12;   // the box and a little air
 constexpr double kCovering = 0.6;  // what a place is worth where lines run beneath
 constexpr double kTurned = 0.8;    // and one where the head must be turned
 

@@ -20,8 +20,10 @@ constexpr int kLeastSize = 16, kMostSize = 16000;
 constexpr int kMostSamples = 8;
 constexpr std::size_t kMostViews = 12;
 constexpr double kMostExplode = 2;
-// Line widths of the style are meant for a picture of this height.
-constexpr double kStyleHeight = 1000;
+// Widths of lines and sizes of type are meant for a picture of so many px; smaller pictures have
+// smaller ones, down to what can be read.
+constexpr double kStylePixels = 1600.0 * 1000.0;
+constexpr double kLeastScale = 0.75, kLeastScaleHeight = 400;
 // All in px of the style.
 constexpr double kTitleRoom = 56;    // above the views
 constexpr double kCaptionRoom = 46;  // below each
@@ -152,7 +154,8 @@ Result<std::string> render(const std::string& title, const Pattern* pattern,
                            const ReferenceModel& model, const RenderOptions& options) {
   if (const Result<void> fine = checkOptions(options); !fine) return fine.error();
   Wish wish;
-  wish.scale = options.height / kStyleHeight;
+  wish.scale = std::max(std::sqrt(1.0 * options.width * options.height / kStylePixels),
+                        kLeastScale * std::min(1.0, options.height / kLeastScaleHeight));
   wish.views = options.views.size();
   wish.titleRoom = options.captions ? kTitleRoom * wish.scale : 0;
   wish.topRoom = kTopRoom * wish.scale;

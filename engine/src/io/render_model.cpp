@@ -20,7 +20,7 @@ using Eigen::Vector3f;
 
 constexpr int kTile = 32;                     // px, one task
 constexpr float kContrastStep = 14.0F / 255;  // between samples: asks for more of them
-constexpr float kShadowStrength = 0.62F;
+constexpr float kShadowStrength = 0.52F;
 constexpr float kInside = 0.42F;  // of the light reaches the inside of an open model
 
 struct Sample {

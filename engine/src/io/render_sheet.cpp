@@ -26,7 +26,7 @@ using Eigen::Vector2d;
 constexpr double kMargin = 34;        // px of the style, round the pieces
 constexpr double kScaleBarRoom = 26;  // px of the style, below them
 constexpr double kLabelSize = 11;     // px of the style
-constexpr double kLeastLabelSize = 6;
+constexpr double kLeastLabelSize = 5;
 
 struct CairoEnd {
   void operator()(cairo_t* c) const { cairo_destroy(c); }
