@@ -48,15 +48,14 @@ Eigen::Vector3f toDisplay(const Eigen::Vector3f& linear) {
   static const std::vector<float> table = [] {
     std::vector<float> values(kSteps + 1);
     for (int i = 0; i <= kSteps; ++i) {
-      const double c = static_cast<double>(i) / kSteps;
+      const double c = std::min(1.0, (i + 0.5) / kSteps);  // the middle of the step
       values[static_cast<std::size_t>(i)] =
           static_cast<float>(c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055);
     }
     return values;
   }();
-  return linear.unaryExpr([](float x) {
-    return table[static_cast<std::size_t>(std::clamp(x, 0.0F, 1.0F) * kSteps + 0.5F)];
-  });
+  return linear.unaryExpr(
+      [](float x) { return table[static_cast<std::size_t>(std::clamp(x, 0.0F, 1.0F) * kSteps)]; });
 }
 
 }  // namespace toile

@@ -98,9 +98,11 @@ std::optional<LabelPlace> fitLabel(const LabelRoom& room, std::span<const LabelB
   const int columns = std::max(1, static_cast<int>(std::lround(size.x() / step)));
   const int rows = std::max(1, static_cast<int>(std::lround(size.y() / step)));
   std::vector<Vector2d> places = {room.wish};
-  for (int i = 0; i < columns * rows; ++i) {
-    places.emplace_back(low.x() + size.x() * (i % columns + 0.5) / columns,
-                        low.y() + size.y() * (i / columns + 0.5) / rows);
+  for (int row = 0; row < rows; ++row) {
+    for (int column = 0; column < columns; ++column) {
+      places.emplace_back(low.x() + size.x() * (column + 0.5) / columns,
+                          low.y() + size.y() * (row + 0.5) / rows);
+    }
   }
   std::erase_if(places, [&](const Vector2d& p) { return !isWithin(room.outlines, p); });
 

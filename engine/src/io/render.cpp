@@ -117,7 +117,9 @@ Arrangement divide(const RenderOptions& options, const Wish& wish) {
   result.sheet = {groundWidth, 0, options.width - groundWidth, options.height};
   if (wish.views == 0) return result;
 
-  const auto [pixels, rows] = bestRows(wish, groundWidth, options.height);
+  const std::pair<double, int> best = bestRows(wish, groundWidth, options.height);
+  const double pixels = best.first;
+  const int rows = best.second;
   result.mmPerPixel = 1 / std::max(pixels, 1e-9);
   const int count = static_cast<int>(wish.views);
   const int columns = (count + rows - 1) / rows;

@@ -180,8 +180,10 @@ Sample ModelRenderer::Shot::sampleAt(double x, double y) const {
 Vector3f ModelRenderer::Shot::fineAt(int x, int y) const {
   const int n = frame_.samples;
   Vector3f sum = Vector3f::Zero();
-  for (int i = 0; i < n * n; ++i) {
-    sum += sampleAt(x + (i % n + 0.5) / n, y + (i / n + 0.5) / n).colour;
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      sum += sampleAt(x + (column + 0.5) / n, y + (row + 0.5) / n).colour;
+    }
   }
   return sum / static_cast<float>(n * n);
 }
