@@ -82,7 +82,7 @@ Drawn drawDesign(const Arguments& arguments, const Session& session, Progress& p
   const Result<Pattern> pattern = makePattern(*document, options, nullptr, &progress);
   if (!pattern) return {pattern.error(), {}, {}};
   progress.step("draw the picture");
-  Drawn drawn{renderPattern(*pattern, arguments.options), pattern->findings, {}};
+  Drawn drawn{renderPattern(*pattern, arguments.options, &progress), pattern->findings, {}};
   for (const std::optional<Error>& failure : pattern->failures) {
     if (failure) drawn.failures.push_back(*failure);
   }
@@ -95,7 +95,7 @@ Drawn drawModel(const Arguments& arguments, const Session& session, Progress& pr
                                            : readModel(arguments.in, session.units);
   if (!model) return {model.error(), {}, {}};
   progress.step("draw the picture");
-  return {renderModel(*model, arguments.options), model->findings, {}};
+  return {renderModel(*model, arguments.options, &progress), model->findings, {}};
 }
 
 int refuse(const std::string& sentence) {

@@ -153,7 +153,8 @@ double lineUnit(const RenderOptions& options, const Wish& wish, double mmPerPixe
 
 /// @param pattern null for a model alone
 Result<std::string> render(const std::string& title, const Pattern* pattern,
-                           const ReferenceModel& model, const RenderOptions& options) {
+                           const ReferenceModel& model, const RenderOptions& options,
+                           Progress* progress) {
   if (const Result<void> fine = checkOptions(options); !fine) return fine.error();
   Wish wish;
   wish.scale = std::max(std::sqrt(1.0 * options.width * options.height / kStylePixels),
@@ -188,7 +189,11 @@ Result<std::string> render(const std::string& title, const Pattern* pattern,
     const bool first = box.y == 0;
     const auto shift = static_cast<int>(
         std::lround(((first ? wish.titleRoom : 0) + wish.topRoom - wish.captionRoom) / 2));
-    renderer->draw(picture, {box, parts.ground, options.samples, shift}, options.views[i]);
+    renderer->draw(picture, {box, parts.ground, options.samples, shift}, options.views[i],
+                   progress);
+    if (isCancelled(progress)) {
+      return Error{ErrorCode::Cancelled, "stopped before the picture was drawn", {}};
+    }
     if (!options.captions) continue;
     const double half = renderer->size(options.views[i]).y() / parts.mmPerPixel / 2;
     drawCaption(picture, {.text = options.views[i].name,
@@ -274,12 +279,15 @@ Result<void> checkOptions(const RenderOptions& options) {
   return {};
 }
 
-Result<std::string> renderPattern(const Pattern& pattern, const RenderOptions& options) {
-  return render(pattern.document.design->name, &pattern, *pattern.document.model, options);
+Result<std::string> renderPattern(const Pattern& pattern, const RenderOptions& options,
+                                  Progress* progress) {
+  return render(pattern.document.design->name, &pattern, *pattern.document.model, options,
+                progress);
 }
 
-Result<std::string> renderModel(const ReferenceModel& model, const RenderOptions& options) {
-  return render(model.name, nullptr, model, options);
+Result<std::string> renderModel(const ReferenceModel& model, const RenderOptions& options,
+                                Progress* progress) {
+  return render(model.name, nullptr, model, options, progress);
 }
 
 }  // namespace toile

@@ -248,12 +248,14 @@ void ModelRenderer::setScale(const Scale& scale) {
   studio_->scene.lines.prepare(kPaintReach * studio_->unit);
 }
 
-void ModelRenderer::draw(Picture& picture, const Frame& frame, const RenderView& view) const {
+void ModelRenderer::draw(Picture& picture, const Frame& frame, const RenderView& view,
+                         const Progress* progress) const {
   const Shot shot(*studio_, frame, view);
   const int columns = (frame.box.width + kTile - 1) / kTile;
   const int rows = (frame.box.height + kTile - 1) / kTile;
   parallelFor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
               [&](std::size_t tile) {
+                if (isCancelled(progress)) return;
                 const int index = static_cast<int>(tile);
                 shot.drawTile(picture, index % columns * kTile, index / columns * kTile);
               });

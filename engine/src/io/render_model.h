@@ -35,7 +35,9 @@ class ModelRenderer {
     int samples = 3;  ///< per pixel and axis where outlines and lines pass, 1 elsewhere
     int shift = 0;    ///< px that the model stands below the middle of the box
   };
-  void draw(Picture& picture, const Frame& frame, const RenderView& view) const;
+  /// Leaves the box unfinished when cancelled.
+  void draw(Picture& picture, const Frame& frame, const RenderView& view,
+            const Progress* progress) const;
 
  private:
   struct Extent;

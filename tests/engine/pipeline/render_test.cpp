@@ -182,6 +182,16 @@ TEST_F(Picture, RefusesOptionsOutOfRange) {
   }
 }
 
+TEST_F(Picture, StopsWhenToldTo) {
+  struct Stop : Progress {
+    void step(std::string_view) override {}
+    [[nodiscard]] bool isCancelled() const override { return true; }
+  } stop;
+  const Result<std::string> png = renderPattern(*pattern_, {.width = 64, .height = 64}, &stop);
+  ASSERT_FALSE(png);
+  EXPECT_EQ(png.error().code, ErrorCode::Cancelled);
+}
+
 TEST(ModelPicture, ASymmetricModelHasASymmetricOutline) {
   const ReferenceModel model = torso();
   const Decoded front(renderModel(model, outlineOnly(views("0,0"))));

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "toile/core/progress.h"
 #include "toile/core/units.h"
 #include "toile/layout/pattern.h"
 
@@ -51,12 +52,15 @@ struct RenderOptions {
 
 /// A picture of the model in the made design with the flat pieces beside it; ray traced without a
 /// display. The same pixels for any number of threads.
-/// @return the bytes of a PNG, or the error of checkOptions().
+/// @param progress optional; polled between tiles of the picture.
+/// @return the bytes of a PNG, the error of checkOptions(), or Cancelled.
 /// @par Cost  about 5 million rays for the default
-Result<std::string> renderPattern(const Pattern& pattern, const RenderOptions& options = {});
+Result<std::string> renderPattern(const Pattern& pattern, const RenderOptions& options = {},
+                                  Progress* progress = nullptr);
 
 /// A picture of a model alone; `pieces` and `explode` do not matter, `lines` other than None draws
 /// the model's own curves.
-Result<std::string> renderModel(const ReferenceModel& model, const RenderOptions& options = {});
+Result<std::string> renderModel(const ReferenceModel& model, const RenderOptions& options = {},
+                                Progress* progress = nullptr);
 
 }  // namespace toile
