@@ -11,7 +11,7 @@ using Eigen::Vector3f;
 
 constexpr int kPoints = 56;    // along the longer side
 constexpr float kRim = 0.22F;  // of the model's diagonal, beyond its box
-constexpr int kSmoothing = 2;  // rounds: a hundred single lamps become one soft one
+constexpr int kSmoothing = 4;  // rounds: neighbours share their directions of the sky
 
 }  // namespace
 
@@ -39,15 +39,16 @@ std::vector<float> GroundShadow::darkness(std::span<const Vector3f> light) const
     return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
            static_cast<std::size_t>(column);
   };
-  const float full = irradiance(sky_, SkyView::kAllOpen, light, Vector3f::UnitZ()).mean();
+  const float full = openIrradiance(sky_, light, Vector3f::UnitZ()).mean();
   std::vector<float> result(sky_.open.size());
   for (int row = 0; row < rows_; ++row) {
     for (int column = 0; column < columns_; ++column) {
       const std::size_t i = index(column, row);
-      const float lit = irradiance(sky_, sky_.open[i], light, Vector3f::UnitZ()).mean() / full;
+      const float lit = irradiance(sky_, i, light, Vector3f::UnitZ()).mean() / full;
       const auto toRim =
           static_cast<float>(std::min({column, row, columns_ - 1 - column, rows_ - 1 - row}));
-      result[i] = (1 - lit) * std::min(1.0F, toRim * step_ / (0.2F * step_ * kPoints));
+      result[i] =
+          std::max(0.0F, 1 - lit) * std::min(1.0F, toRim * step_ / (0.2F * step_ * kPoints));
     }
   }
   for (int round = 0; round < kSmoothing; ++round) {

@@ -16,6 +16,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
+constexpr int kSmoothing = 3;          // rounds over the light at vertices
 constexpr double kShadeReach = 0.25;   // of the diagonal: nearer surface darkens
 constexpr double kAlongNormal = 0.12;  // of the diagonal: what explodes moves out so far as well
 constexpr Colour kBareModel = colourOf(0xCFC8BF);
@@ -113,13 +114,12 @@ class SceneBuilder {
   RenderScene finish() {
     scene_.surface = RayScene::ofTriangles(scene_.positions, scene_.corners);
     std::vector<Vector3f> points;
-    std::vector<std::uint32_t> corners;
     for (const Vector3d& p : model_.positions()) points.push_back(p.cast<float>());
     for (const Triangle& triangle : model_.triangles()) {
-      for (const VertexId v : triangle) corners.push_back(v.index());
+      for (const VertexId v : triangle) scene_.modelCorners.push_back(v.index());
     }
-    scene_.sky = computeSkyView(RayScene::ofTriangles(points, corners), points, scene_.modelNormals,
-                                static_cast<float>(2e-4 * scene_.diagonal),
+    scene_.sky = computeSkyView(RayScene::ofTriangles(points, scene_.modelCorners), points,
+                                scene_.modelNormals, static_cast<float>(2e-4 * scene_.diagonal),
                                 static_cast<float>(kShadeReach * scene_.diagonal));
     return std::move(scene_);
   }
@@ -254,6 +254,26 @@ RenderScene makeScene(const ReferenceModel& model, const RenderOptions& options)
   return builder.finish();
 }
 
+/// Mean with the neighbours that face the same way: they have looked in other directions.
+std::vector<Vector3f> RenderScene::smoothed(const std::vector<Vector3f>& light) const {
+  std::vector<Vector3f> sum = light;
+  std::vector<float> weight(light.size(), 1);
+  for (std::size_t f = 0; f < modelCorners.size(); f += 3) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t a = modelCorners[f + k];
+      const std::uint32_t b = modelCorners[f + (k + 1) % 3];
+      const float alike = std::max(0.0F, modelNormals[a].dot(modelNormals[b]));
+      const float share = 0.5F * alike * alike * alike * alike;  // each edge comes twice
+      sum[a] += share * light[b];
+      sum[b] += share * light[a];
+      weight[a] += share;
+      weight[b] += share;
+    }
+  }
+  for (std::size_t i = 0; i < sum.size(); ++i) sum[i] /= weight[i];
+  return sum;
+}
+
 std::vector<Vector3f> RenderScene::lightAtVertices(std::span<const Vector3f> light) const {
   std::vector<Vector3f> atModel(modelNormals.size());
   constexpr std::size_t kBlock = 512;
@@ -262,9 +282,9 @@ std::vector<Vector3f> RenderScene::lightAtVertices(std::span<const Vector3f> lig
       for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) body(i);
     });
   };
-  forBlocks(atModel.size(), [&](std::size_t i) {
-    atModel[i] = irradiance(sky, sky.open[i], light, modelNormals[i]);
-  });
+  forBlocks(atModel.size(),
+            [&](std::size_t i) { atModel[i] = irradiance(sky, i, light, modelNormals[i]); });
+  for (int round = 0; round < kSmoothing; ++round) atModel = smoothed(atModel);
   std::vector<Vector3f> result(onModel.size());
   forBlocks(result.size(), [&](std::size_t i) {
     const OnModel& at = onModel[i];

@@ -33,11 +33,16 @@ struct RenderScene {
   };
   std::vector<OnModel> onModel;  ///< per vertex of the scene
   std::vector<Eigen::Vector3f> modelNormals;
-  SkyView sky;  ///< per vertex of the model
+  std::vector<std::uint32_t> modelCorners;  ///< three per face
+  SkyView sky;                              ///< per vertex of the model
 
   /// Light at every vertex of the scene, from studioLight().
   [[nodiscard]] std::vector<Eigen::Vector3f> lightAtVertices(
       std::span<const Eigen::Vector3f> light) const;
+
+ private:
+  [[nodiscard]] std::vector<Eigen::Vector3f> smoothed(
+      const std::vector<Eigen::Vector3f>& light) const;
 };
 
 [[nodiscard]] RenderScene makeScene(const Pattern& pattern, const RenderOptions& options);

@@ -18,16 +18,27 @@ constexpr std::size_t kLeastDirections = 24;
 // Grazing rays meet the facets of the surface itself.
 constexpr float kGrazing = 0.05F;
 
-std::vector<Vector3f> sphereDirections(std::size_t count) {
-  std::vector<Vector3f> directions(count);
+/// Golden spirals, each shifted and turned against the others.
+std::vector<Vector3f> sphereDirections(std::size_t perSet) {
+  std::vector<Vector3f> directions;
   const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1 - 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double r = std::sqrt(1 - z * z);
-    const double angle = golden * static_cast<double>(i);
-    directions[i] = Vector3d(r * std::cos(angle), r * std::sin(angle), z).cast<float>();
+  for (std::size_t set = 0; set < SkyView::kSets; ++set) {
+    const double share = (static_cast<double>(set) + 0.5) / SkyView::kSets;
+    for (std::size_t i = 0; i < perSet; ++i) {
+      const double at = static_cast<double>(i) + share;
+      const double z = 1 - 2 * at / static_cast<double>(perSet);
+      const double r = std::sqrt(1 - z * z);
+      const double angle = golden * at + 2.4 * static_cast<double>(set);
+      directions.push_back(Vector3d(r * std::cos(angle), r * std::sin(angle), z).cast<float>());
+    }
   }
   return directions;
+}
+
+/// Scattered, so that it does not follow the order in which a mesh numbers its rows of vertices.
+std::size_t setOf(std::size_t point) {
+  const auto mixed = static_cast<std::uint32_t>(point) * 2654435761U;
+  return (mixed >> 16U) % SkyView::kSets;
 }
 
 }  // namespace
@@ -43,9 +54,10 @@ SkyView computeSkyView(const RayScene& scene, std::span<const Vector3f> points,
   parallelFor((count + kBlock - 1) / kBlock, [&](std::size_t block) {
     for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
       const Vector3f origin = points[i] + lift * normals[i];
-      for (std::size_t k = 0; k < sky.directions.size(); ++k) {
-        if (normals[i].dot(sky.directions[k]) <= kGrazing) continue;
-        if (scene.isBlocked(origin, sky.directions[k], 0, reach)) {
+      const Vector3f* directions = sky.directions.data() + setOf(i) * sky.perSet();
+      for (std::size_t k = 0; k < sky.perSet(); ++k) {
+        if (normals[i].dot(directions[k]) <= kGrazing) continue;
+        if (scene.isBlocked(origin, directions[k], 0, reach)) {
           sky.open[i][k / 64] &= ~(std::uint64_t{1} << (k % 64));
         }
       }
@@ -73,18 +85,29 @@ std::vector<Vector3f> studioLight(std::span<const Vector3f> directions, const Ve
   }
   SkyView all;
   all.directions.assign(directions.begin(), directions.end());
-  const float full = irradiance(all, SkyView::kAllOpen, light, from(-0.3F, 0.3F, 0.9F)).mean();
+  const float full = openIrradiance(all, light, from(-0.3F, 0.3F, 0.9F)).mean();
   for (Vector3f& each : light) each *= 1.04F / full;
   return light;
 }
 
-Vector3f irradiance(const SkyView& sky, const SkyView::Mask& open, std::span<const Vector3f> light,
+Vector3f irradiance(const SkyView& sky, std::size_t point, std::span<const Vector3f> light,
                     const Vector3f& normal) {
+  const SkyView::Mask& open = sky.open[point];
+  const std::size_t first = setOf(point) * sky.perSet();
+  Vector3f sum = Vector3f::Zero();
+  for (std::size_t k = 0; k < sky.perSet(); ++k) {
+    const float cosine = normal.dot(sky.directions[first + k]);
+    if (cosine <= kGrazing || (open[k / 64] >> (k % 64) & 1U) == 0) continue;
+    sum += cosine * light[first + k];
+  }
+  return sum * (4.0F / static_cast<float>(sky.perSet()));
+}
+
+Vector3f openIrradiance(const SkyView& sky, std::span<const Vector3f> light,
+                        const Vector3f& normal) {
   Vector3f sum = Vector3f::Zero();
   for (std::size_t k = 0; k < light.size(); ++k) {
-    const float cosine = normal.dot(sky.directions[k]);
-    if (cosine <= kGrazing || (open[k / 64] >> (k % 64) & 1U) == 0) continue;
-    sum += cosine * light[k];
+    sum += std::max(0.0F, normal.dot(sky.directions[k])) * light[k];
   }
   return sum * (4.0F / static_cast<float>(light.size()));
 }
