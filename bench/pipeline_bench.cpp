@@ -114,7 +114,7 @@ void arrangeAll(benchmark::State& state, const Shape& shape) {
 void drawPicture(benchmark::State& state, const Shape& shape) {
   const auto pattern = make(state, shape);
   if (!pattern) return;
-  for (auto _ : state) benchmark::DoNotOptimize(renderPreview(*pattern));
+  for (auto _ : state) benchmark::DoNotOptimize(renderPattern(*pattern));
 }
 
 void writeDrawings(benchmark::State& state, const Shape& shape) {

@@ -11,5 +11,6 @@ void addCheck(CLI::App& app, Session& session);
 void addUnfold(CLI::App& app, Session& session);
 void addBody(CLI::App& app, Session& session);
 void addDevelop(CLI::App& app, Session& session);
+void addRender(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

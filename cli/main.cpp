@@ -113,6 +113,7 @@ int runProgram(int argc, char** argv) {
   addUnfold(app, session);
   addBody(app, session);
   addDevelop(app, session);
+  addRender(app, session);
   app.require_subcommand(0, 1);
   app.footer(
       "`toile COMMAND --help` tells about one command. Exit status: 0 done, 1 the work failed, "

@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "support/result_printing.h"
@@ -24,6 +25,18 @@ inline Document sleeveDocument() {
   }
   return *document;
 }
+
+/// Tests that look at the finished sleeve: its pattern is made once for all of them.
+class SleevePattern : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Result<Pattern> made = makePattern(sleeveDocument());
+    ASSERT_TRUE(made) << made.error();
+    pattern_ = *made;
+  }
+  static void TearDownTestSuite() { pattern_.reset(); }
+  static inline std::optional<Pattern> pattern_;
+};
 
 /// The document with another design on the same model.
 inline Document withDesign(const Document& document, Design design) {

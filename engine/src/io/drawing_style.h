@@ -1,37 +1,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <cstdint>
-#include <vector>
-
+#include "io/colour.h"
 #include "toile/cut/cut.h"
 
 namespace toile {
 
 /// How pictures and reports look; one place, so that a line is the same colour everywhere.
 
-struct Colour {
-  std::uint8_t r = 0, g = 0, b = 0;
-};
-constexpr Colour colourOf(std::uint32_t rgb) {
-  return {static_cast<std::uint8_t>(rgb >> 16U), static_cast<std::uint8_t>(rgb >> 8U),
-          static_cast<std::uint8_t>(rgb)};
-}
-
-inline constexpr Colour kClay = colourOf(0xCCC6BE);
-inline constexpr Colour kGroundCentre = colourOf(0xECEAE6);  ///< behind the model
-inline constexpr Colour kGroundEdge = colourOf(0xD3CFC8);
-inline constexpr Colour kSheet = colourOf(0xEFEDE9);  ///< behind the flat pieces
+inline constexpr Colour kGroundCentre = colourOf(0xF2F0ED);  ///< behind the model
+inline constexpr Colour kGroundEdge = colourOf(0xD6D3CD);
+inline constexpr Colour kSheet = colourOf(0xF6F5F2);  ///< behind the flat pieces
 inline constexpr Colour kText = colourOf(0x1F2124);
 inline constexpr Colour kSecondText = colourOf(0x55585E);
 inline constexpr Colour kCutLine = colourOf(0x6B7078);
-
-/// Light enough that every kind of line reads on them.
-inline constexpr std::array<Colour, 6> kFabricTints = {colourOf(0xBCC6CC), colourOf(0xD8C8B0),
-                                                       colourOf(0xC6D2BE), colourOf(0xD9C3C9),
-                                                       colourOf(0xC9C4DC), colourOf(0xD3D0C8)};
 
 enum class Dash { Solid, Dashes, Dots, LongShort };
 
@@ -81,9 +63,5 @@ inline constexpr double kLongOn = 12,
   }
   return {};
 }
-
-/// A tint per piece, neighbours across a seam in different ones as far as six go round; clay for
-/// pieces that are left out.
-[[nodiscard]] std::vector<Colour> pieceColours(const CutResult& cut);
 
 }  // namespace toile

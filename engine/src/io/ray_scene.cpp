@@ -35,33 +35,13 @@ void fillTriangles(RTCGeometry geometry, std::span<const Eigen::Vector3f> positi
   std::memcpy(indices, corners.data(), corners.size_bytes());
 }
 
-void fillTubes(RTCGeometry geometry, std::span<const Tube> tubes, std::span<const float> radii) {
-  auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT4, 4 * sizeof(float), 2 * tubes.size()));
-  auto* indices = static_cast<std::uint32_t*>(rtcSetNewGeometryBuffer(
-      geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT, sizeof(std::uint32_t), tubes.size()));
-  for (std::size_t i = 0; i < tubes.size(); ++i) {
-    for (const Eigen::Vector3f& end : {tubes[i].a, tubes[i].b}) {
-      std::memcpy(vertices, end.data(), 3 * sizeof(float));
-      vertices[3] = radii[i];
-      vertices += 4;
-    }
-    indices[i] = static_cast<std::uint32_t>(2 * i);
-  }
-}
-
 }  // namespace
 
-RayScene::RayScene(RTCGeometryType type, std::span<const Eigen::Vector3f> positions,
-                   std::span<const std::uint32_t> corners, std::span<const Tube> tubes,
-                   std::span<const float> radii)
+RayScene::RayScene(std::span<const Eigen::Vector3f> positions,
+                   std::span<const std::uint32_t> corners)
     : device_(rtcNewDevice(nullptr)), scene_(rtcNewScene(device_)) {
-  RTCGeometry geometry = rtcNewGeometry(device_, type);
-  if (type == RTC_GEOMETRY_TYPE_TRIANGLE) {
-    fillTriangles(geometry, positions, corners);
-  } else {
-    fillTubes(geometry, tubes, radii);
-  }
+  RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
+  fillTriangles(geometry, positions, corners);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(scene_, geometry);
   rtcReleaseGeometry(geometry);
@@ -72,12 +52,7 @@ RayScene::RayScene(RTCGeometryType type, std::span<const Eigen::Vector3f> positi
 RayScene RayScene::ofTriangles(std::span<const Eigen::Vector3f> positions,
                                std::span<const std::uint32_t> corners) {
   if (corners.empty()) return {};
-  return RayScene(RTC_GEOMETRY_TYPE_TRIANGLE, positions, corners, {}, {});
-}
-
-RayScene RayScene::ofTubes(std::span<const Tube> tubes, std::span<const float> radii) {
-  if (tubes.empty()) return {};
-  return RayScene(RTC_GEOMETRY_TYPE_ROUND_LINEAR_CURVE, {}, {}, tubes, radii);
+  return RayScene(positions, corners);
 }
 
 RayScene::~RayScene() {

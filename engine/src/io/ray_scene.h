@@ -11,11 +11,6 @@
 
 namespace toile {
 
-/// A chain of round tubes; `chain` says to which line each segment belongs.
-struct Tube {
-  Eigen::Vector3f a, b;
-};
-
 struct FirstHit {
   std::uint32_t primitive = RTC_INVALID_GEOMETRY_ID;
   float t = std::numeric_limits<float>::infinity();
@@ -23,14 +18,13 @@ struct FirstHit {
   [[nodiscard]] bool exists() const { return primitive != RTC_INVALID_GEOMETRY_ID; }
 };
 
-/// An Embree scene of one geometry. Thin: owns, asks, forgets. Embree works in float; pictures need
+/// An Embree scene of triangles. Thin: owns, asks, forgets. Embree works in float; pictures need
 /// no more.
 class RayScene {
  public:
   RayScene() = default;
   static RayScene ofTriangles(std::span<const Eigen::Vector3f> positions,
                               std::span<const std::uint32_t> corners);
-  static RayScene ofTubes(std::span<const Tube> tubes, std::span<const float> radii);
   ~RayScene();
   RayScene(RayScene&& other) noexcept;
   RayScene& operator=(RayScene&& other) noexcept;
@@ -41,9 +35,7 @@ class RayScene {
                                float near, float far) const;
 
  private:
-  explicit RayScene(RTCGeometryType type, std::span<const Eigen::Vector3f> positions,
-                    std::span<const std::uint32_t> corners, std::span<const Tube> tubes,
-                    std::span<const float> radii);
+  RayScene(std::span<const Eigen::Vector3f> positions, std::span<const std::uint32_t> corners);
   RTCDevice device_ = nullptr;
   RTCScene scene_ = nullptr;
 };

@@ -3,494 +3,261 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <numbers>
 #include <optional>
+#include <utility>
 
-#include "io/ray_scene.h"
+#include "io/camera.h"
+#include "io/ground_shadow.h"
 #include "toile/core/parallel.h"
 
 namespace toile {
 namespace {
 
 using Eigen::Vector2d;
-using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr int kTile = 32;                          // px, one task
-constexpr std::size_t kOcclusionRays = 2'000'000;  // for the whole model
-constexpr std::size_t kMostRaysPerVertex = 128;    // over the sphere; half of them count
-constexpr std::size_t kLeastRaysPerVertex = 24;
-constexpr double kOcclusionReach = 0.25;  // of the model's diagonal: nearer surface darkens
-constexpr double kEyeDistance = 5;        // in diagonals: nearly parallel, yet round
-constexpr int kMostTubes = 12;            // along one ray
-constexpr double kCasing = 1;             // px of white beside a line, each side
-constexpr double kCasingOpacity = 0.55;
-constexpr double kContrastStep = 18.0 / 255;  // difference of samples that asks for more of them
-
-// Shading is computed in linear light; mixing of samples in sRGB, where edges look even.
-double toLinear(double s) {
-  return s <= 0.04045 ? s / 12.92 : std::pow((s + 0.055) / 1.055, 2.4);
-}
-/// By table: it is asked for every sample, and pictures have eight bits.
-double toDisplay(double x) {
-  constexpr std::size_t kSteps = 4096;
-  static const std::vector<double> table = [] {
-    std::vector<double> values(kSteps + 1);
-    for (std::size_t i = 0; i <= kSteps; ++i) {
-      const double c = static_cast<double>(i) / kSteps;
-      values[i] = c <= 0.0031308 ? 12.92 * c : 1.055 * std::pow(c, 1 / 2.4) - 0.055;
-    }
-    return values;
-  }();
-  return table[static_cast<std::size_t>(std::lround(std::clamp(x, 0.0, 1.0) * kSteps))];
-}
-/// The 32nd power, 0 for what faces away.
-double sharpened(double cosine) {
-  double x = std::max(0.0, cosine);
-  for (int i = 0; i < 5; ++i) x *= x;
-  return x;
-}
-Vector3d displayOf(Colour c) {
-  return Vector3d(c.r, c.g, c.b) / 255.0;
-}
-Vector3d linearOf(Colour c) {
-  return displayOf(c).unaryExpr(&toLinear);
-}
-
-/// Normals weighted by angle, so that they do not depend on how a face is split.
-std::vector<Vector3d> vertexNormals(const Mesh& mesh) {
-  std::vector<Vector3d> normals(mesh.vertexCount(), Vector3d::Zero());
-  for (std::size_t i = 0; i < mesh.faceCount(); ++i) {
-    const Triangle& corners = mesh.vertices(FaceId(i));
-    const Vector3d normal = mesh.normal(FaceId(i));
-    for (std::size_t k = 0; k < 3; ++k) {
-      const Vector3d& p = mesh.position(corners[k]);
-      const Vector3d a = (mesh.position(corners[(k + 1) % 3]) - p).normalized();
-      const Vector3d b = (mesh.position(corners[(k + 2) % 3]) - p).normalized();
-      normals[corners[k].index()] += std::acos(std::clamp(a.dot(b), -1.0, 1.0)) * normal;
-    }
-  }
-  for (Vector3d& normal : normals) normal.normalize();
-  return normals;
-}
-
-/// Evenly spread directions (golden spiral): the same for every vertex, so that the light varies
-/// smoothly from one to the next.
-std::vector<Vector3f> sphereDirections(std::size_t count) {
-  std::vector<Vector3f> directions(count);
-  const double golden = std::numbers::pi * (3 - std::sqrt(5.0));
-  for (std::size_t i = 0; i < count; ++i) {
-    const double z = 1 - 2 * (static_cast<double>(i) + 0.5) / static_cast<double>(count);
-    const double r = std::sqrt(1 - z * z);
-    const double angle = golden * static_cast<double>(i);
-    directions[i] = Vector3d(r * std::cos(angle), r * std::sin(angle), z).cast<float>();
-  }
-  return directions;
-}
-
-struct Camera {
-  Vector3d eye, right, up, forward;
-  double distance = 1;  ///< of the eye from the middle
-};
-
-Camera makeCamera(const Vector3d& middle, double diagonal, const ModelView& view) {
-  Camera camera;
-  const Vector3d out(std::cos(view.above) * std::sin(view.turn),
-                     -std::cos(view.above) * std::cos(view.turn), std::sin(view.above));
-  camera.distance = kEyeDistance * diagonal;
-  camera.eye = middle + camera.distance * out;
-  camera.forward = -out;
-  camera.right = camera.forward.cross(Vector3d::UnitZ()).normalized();
-  camera.up = camera.right.cross(camera.forward);
-  return camera;
-}
-
-/// Where a point appears in the plane through the middle of the model, mm.
-Vector2d project(const Camera& camera, const Vector3d& p) {
-  const Vector3d d = p - camera.eye;
-  const double scale = camera.distance / d.dot(camera.forward);
-  return {scale * d.dot(camera.right), scale * d.dot(camera.up)};
-}
-
-struct Line {
-  LineStyle style;
-  std::vector<Vector3d> points;
-};
-
-/// One straight stretch of a line, with its way along the line.
-struct Stretch {
-  Vector3d a, b;
-  double from = 0;  ///< mm along the line at a
-  std::uint32_t line = 0;
-};
-
-bool isInked(const LineStyle& style, double along, double across) {
-  switch (style.dash) {
-    case Dash::Solid:
-      return true;
-    case Dash::Dashes:
-      return std::fmod(along, kDashOn + kDashOff) < kDashOn;
-    case Dash::Dots: {
-      const double fromDot = std::remainder(along, kDotSpacing);
-      return std::hypot(fromDot, across) <= style.width / 2;
-    }
-    case Dash::LongShort: {
-      const double at = std::fmod(along, kLongOn + 3 * kLongOff);
-      return at < kLongOn || (at >= kLongOn + kLongOff && at < kLongOn + 2 * kLongOff);
-    }
-  }
-  return true;
-}
+constexpr int kTile = 32;                     // px, one task
+constexpr float kContrastStep = 14.0F / 255;  // between samples: asks for more of them
+constexpr float kShadowStrength = 0.52F;
+constexpr float kInside = 0.42F;  // of the light reaches the inside of an open model
 
 struct Sample {
-  Vector3d colour;         ///< display values 0..1
-  std::uint32_t seen = 0;  ///< what kind of thing: ground, surface, ink, casing
+  Vector3f colour;         ///< display values 0..1
+  std::uint32_t part = 0;  ///< 0 the ground, else one more than the part
+  bool fine = false;
 };
+
+float power4(float x) {
+  return x * x * x * x;
+}
 
 }  // namespace
 
-struct ModelRenderer::Scene {
-  std::vector<Vector3f> positions;
-  std::vector<std::uint32_t> corners;
-  std::vector<Vector3f> normals;  ///< per corner's vertex
-  std::vector<float> openness;    ///< 1 = sees the whole sky, 0 = nothing
-  std::vector<std::uint16_t> colourOfFace;
-  std::vector<Vector3d> colours;  ///< linear
-  std::vector<Line> lines;
-  Vector3d middle = Vector3d::Zero();
-  double diagonal = 1;
-  RayScene surface;
-
-  void addPieces(const Pattern& pattern);
-  void addModel(const Mesh& mesh);
-  void addVertexLight(const Mesh& model, const std::vector<Vector3d>& modelNormals,
-                      const std::vector<float>& modelOpenness,
-                      const VertexData<SurfacePoint>& onModel);
-  void addLines(const Pattern& pattern);
-  [[nodiscard]] std::vector<float> computeOpenness(const Mesh& mesh,
-                                                   const std::vector<Vector3d>& normals) const;
-  [[nodiscard]] std::array<Vector2d, 2> extent(const Camera& camera) const;
-  [[nodiscard]] Vector3d shade(const FirstHit& hit, const Camera& camera,
-                               const Vector3d& direction) const;
-};
-
-/// What one call of draw() needs in every sample.
-struct DrawContext {
-  Camera camera;
-  Vector2d centre;     ///< of the model in the view plane, mm
-  Vector2d low, high;  ///< beyond these there is nothing to see, mm
-  double unit = 1;     ///< mm per px of the line styles
-  std::vector<Stretch> stretches;
-  RayScene tubes;
-};
-
-void ModelRenderer::Scene::addModel(const Mesh& mesh) {
-  for (const Vector3d& p : mesh.positions()) positions.push_back(p.cast<float>());
-  for (const Triangle& triangle : mesh.triangles()) {
-    for (const VertexId v : triangle) corners.push_back(v.index());
-  }
-  middle = 0.5 * (mesh.boxMin() + mesh.boxMax());
-  diagonal = std::max((mesh.boxMax() - mesh.boxMin()).norm(), 1e-6);
-  surface = RayScene::ofTriangles(positions, corners);
-}
-
-std::vector<float> ModelRenderer::Scene::computeOpenness(
-    const Mesh& mesh, const std::vector<Vector3d>& meshNormals) const {
-  const std::size_t count = mesh.vertexCount();
-  const std::vector<Vector3f> directions =
-      sphereDirections(std::clamp(kOcclusionRays / count, kLeastRaysPerVertex, kMostRaysPerVertex));
-  std::vector<float> result(count, 1.0F);
-  const auto lift = static_cast<float>(2e-4 * diagonal);
-  const auto reach = static_cast<float>(kOcclusionReach * diagonal);
-  constexpr std::size_t kBlock = 256;
-  parallelFor((count + kBlock - 1) / kBlock, [&](std::size_t block) {
-    for (std::size_t i = block * kBlock; i < std::min(count, (block + 1) * kBlock); ++i) {
-      const Vector3f normal = meshNormals[i].cast<float>();
-      const Vector3f origin = mesh.position(VertexId(i)).cast<float>() + lift * normal;
-      float open = 0;
-      float all = 0;
-      for (const Vector3f& direction : directions) {
-        const float weight = normal.dot(direction);
-        if (weight <= 0.05F) continue;  // grazing rays meet the facets of the surface itself
-        all += weight;
-        if (!surface.isBlocked(origin, direction, 0, reach)) open += weight;
-      }
-      if (all > 0) result[i] = open / all;
-    }
-  });
-  return result;
-}
-
-void ModelRenderer::Scene::addVertexLight(const Mesh& model,
-                                          const std::vector<Vector3d>& modelNormals,
-                                          const std::vector<float>& modelOpenness,
-                                          const VertexData<SurfacePoint>& onModel) {
-  for (const SurfacePoint& point : onModel.values()) {
-    const FaceId face = facesOf(model, point).front();
-    const Vector3d weights = barycentricIn(model, point, face);
-    Vector3d normal = Vector3d::Zero();
-    double open = 0;
-    for (int k = 0; k < 3; ++k) {
-      const std::uint32_t v = model.vertices(face)[static_cast<std::size_t>(k)].index();
-      normal += weights[k] * modelNormals[v];
-      open += weights[k] * static_cast<double>(modelOpenness[v]);
-    }
-    normals.push_back(normal.cast<float>());
-    openness.push_back(static_cast<float>(open));
-  }
-}
-
-void ModelRenderer::Scene::addPieces(const Pattern& pattern) {
-  const Mesh& model = *pattern.document.model->mesh;
-  const std::vector<Vector3d> modelNormals = vertexNormals(model);
-  addModel(model);
-  const std::vector<float> modelOpenness = computeOpenness(model, modelNormals);
-  positions.clear();
-  corners.clear();
-
-  const std::vector<Colour> tints = pieceColours(pattern.cut);
-  for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
-    const Piece& piece = pattern.cut.pieces[i];
-    const auto first = static_cast<std::uint32_t>(positions.size());
-    for (const Vector3d& p : piece.mesh->positions()) positions.push_back(p.cast<float>());
-    for (const Triangle& triangle : piece.mesh->triangles()) {
-      for (const VertexId v : triangle) corners.push_back(first + v.index());
-      colourOfFace.push_back(static_cast<std::uint16_t>(i));
-    }
-    addVertexLight(model, modelNormals, modelOpenness, piece.onModel);
-    colours.push_back(linearOf(tints[i]));
-  }
-  surface = RayScene::ofTriangles(positions, corners);
-}
-
-void ModelRenderer::Scene::addLines(const Pattern& pattern) {
-  const Mesh& model = *pattern.document.model->mesh;
-  for (const PlacedCurve& curve : pattern.curves) {
-    if (curve.kind == CurveKind::Guide) continue;
-    Line line{lineStyle(curve.kind), {}};
-    for (const SurfacePoint& point : curve.path.points) {
-      line.points.push_back(position(model, point));
-    }
-    if (curve.path.closed && !line.points.empty()) line.points.push_back(line.points.front());
-    lines.push_back(std::move(line));
-  }
-  for (const std::vector<HalfedgeId>& loop : model.boundaryLoops()) {
-    Line line{lineStyle(WireKind::Border), {}};
-    for (const HalfedgeId h : loop) line.points.push_back(model.position(model.from(h)));
-    line.points.push_back(line.points.front());
-    lines.push_back(std::move(line));
-  }
-}
-
-std::array<Vector2d, 2> ModelRenderer::Scene::extent(const Camera& camera) const {
+/// A rectangle in the view plane, mm.
+struct ModelRenderer::Extent {
   Vector2d low = Vector2d::Constant(std::numeric_limits<double>::infinity());
   Vector2d high = -low;
-  for (const Vector3f& p : positions) {
-    const Vector2d at = project(camera, p.cast<double>());
-    low = low.cwiseMin(at);
-    high = high.cwiseMax(at);
+  void add(const Vector2d& p) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
   }
-  return {low, high};
-}
-
-Vector3d ModelRenderer::Scene::shade(const FirstHit& hit, const Camera& camera,
-                                     const Vector3d& direction) const {
-  const std::uint32_t* c = corners.data() + 3 * std::size_t{hit.primitive};
-  const float w = 1 - hit.u - hit.v;
-  Vector3d normal =
-      (w * normals[c[0]] + hit.u * normals[c[1]] + hit.v * normals[c[2]]).cast<double>();
-  double open =
-      static_cast<double>(w * openness[c[0]] + hit.u * openness[c[1]] + hit.v * openness[c[2]]);
-  normal.normalize();
-  const Vector3f edgeA = positions[c[1]] - positions[c[0]];
-  const Vector3f edgeB = positions[c[2]] - positions[c[0]];
-  if (edgeA.cross(edgeB).cast<double>().dot(direction) > 0) {  // the inside of an open model
-    normal = -normal;
-    open *= 0.6;
+  void grow(double rim) {
+    low -= Vector2d::Constant(rim);
+    high += Vector2d::Constant(rim);
   }
-  const auto fromCamera = [&camera](double x, double y, double z) {
-    return Vector3d(x * camera.right + y * camera.up - z * camera.forward).normalized();
-  };
-  static constexpr double kWrap = 0.25;  // a large soft lamp reaches past the terminator
-  const Vector3d key = fromCamera(-0.55, 0.65, 0.60);
-  const Vector3d fill = fromCamera(0.80, -0.10, 0.50);
-  const double lit = std::max(0.0, (normal.dot(key) + kWrap) / (1 + kWrap));
-  const double sky = open * (0.78 + 0.22 * normal.z());
-  const double light = 0.46 * sky + 0.68 * lit * (0.30 + 0.70 * open) +
-                       0.12 * std::max(0.0, normal.dot(fill)) * open;
-  const Vector3d half = (key - direction).normalized();
-  const double gloss = 0.035 * open * sharpened(normal.dot(half));
-  return (light * colours[colourOfFace[hit.primitive]] + Vector3d::Constant(gloss))
-      .unaryExpr(&toDisplay);
-}
+  [[nodiscard]] bool holds(const Vector2d& p) const {
+    return (p.array() >= low.array()).all() && (p.array() <= high.array()).all();
+  }
+};
 
-namespace {
+struct ModelRenderer::Studio {
+  RenderScene scene;
+  RenderStyle style = RenderStyle::Product;
+  std::optional<GroundShadow> ground;
+  double mmPerPixel = 1;
+  float unit = 1;  ///< mm per px of the line styles
 
-DrawContext makeContext(const std::vector<Line>& lines, const Camera& camera,
-                        const std::array<Vector2d, 2>& extent, double unit) {
-  DrawContext context;
-  context.camera = camera;
-  context.unit = unit;
-  // Lines stand out beyond the surface by half their width.
-  const Vector2d rim = Vector2d::Constant(10 * unit);
-  context.low = extent[0] - rim;
-  context.high = extent[1] + rim;
-  context.centre = 0.5 * (extent[0] + extent[1]);
+  [[nodiscard]] Extent extent(const Camera& camera) const {
+    Extent extent;
+    for (const Vector3f& p : scene.positions) extent.add(project(camera, p.cast<double>()));
+    return extent;
+  }
+};
 
-  std::vector<Tube> tubes;
-  std::vector<float> radii;
-  for (std::size_t i = 0; i < lines.size(); ++i) {
-    double from = 0;
-    const double radius = (lines[i].style.width / 2 + kCasing) * unit;
-    for (std::size_t k = 0; k + 1 < lines[i].points.size(); ++k) {
-      const Vector3d& a = lines[i].points[k];
-      const Vector3d& b = lines[i].points[k + 1];
-      const double length = (b - a).norm();
-      if (length <= 0) continue;
-      context.stretches.push_back({a, b, from, static_cast<std::uint32_t>(i)});
-      tubes.push_back({a.cast<float>(), b.cast<float>()});
-      radii.push_back(static_cast<float>(radius));
-      from += length;
+/// One view into one box of the picture.
+class ModelRenderer::Shot {
+ public:
+  Shot(const Studio& studio, const Frame& frame, const RenderView& view)
+      : studio_(studio),
+        scene_(studio.scene),
+        frame_(frame),
+        isProduct_(studio.style == RenderStyle::Product) {
+    const Camera camera = makeCamera(scene_.middle, scene_.diagonal, view);
+    eye_ = camera.eye.cast<float>();
+    right_ = camera.right.cast<float>();
+    up_ = camera.up.cast<float>();
+    forward_ = camera.forward.cast<float>();
+    distance_ = static_cast<float>(camera.distance);
+    key_ = (-0.62F * right_ + 0.62F * up_ - 0.62F * forward_).normalized();
+    model_ = studio.extent(camera);
+    centre_ = 0.5 * (model_.low + model_.high);
+    model_.grow(2 * studio.mmPerPixel);
+    light_ = scene_.lightAtVertices(studioLight(scene_.sky.directions, right_, up_, -forward_));
+    if (!studio.ground) return;
+    darkness_ = studio.ground->darkness(
+        studioLight(studio.ground->sky().directions, right_, up_, -forward_));
+    for (const Vector3f& corner : studio.ground->corners()) {
+      shadow_.add(project(camera, corner.cast<double>()));
     }
   }
-  context.tubes = RayScene::ofTubes(tubes, radii);
-  return context;
+
+  void drawTile(Picture& picture, int left, int top) const;
+
+ private:
+  [[nodiscard]] Sample shade(const FirstHit& hit, const Vector3f& direction) const;
+  [[nodiscard]] Vector3f groundAt(double x, double y) const;
+  [[nodiscard]] Sample sampleAt(double x, double y) const;
+  [[nodiscard]] Vector3f fineAt(int x, int y) const;
+
+  const Studio& studio_;
+  const RenderScene& scene_;
+  const Frame& frame_;
+  bool isProduct_;
+  Vector3f eye_, right_, up_, forward_;
+  float distance_ = 1;  ///< of the eye from the middle, mm
+  Vector3f key_;        ///< towards the lamp, for gloss
+  Extent model_, shadow_;
+  Vector2d centre_;              ///< of the model in the view plane, mm
+  std::vector<Vector3f> light_;  ///< per vertex of the scene
+  std::vector<float> darkness_;  ///< of the ground
+};
+
+Sample ModelRenderer::Shot::shade(const FirstHit& hit, const Vector3f& direction) const {
+  const std::uint32_t* c = scene_.corners.data() + 3 * std::size_t{hit.primitive};
+  const float w = 1 - hit.u - hit.v;
+  const auto blend = [&](const std::vector<Vector3f>& values) -> Vector3f {
+    return w * values[c[0]] + hit.u * values[c[1]] + hit.v * values[c[2]];
+  };
+  const std::uint32_t part = scene_.partOfFace[hit.primitive];
+  const Cloth& cloth = scene_.cloth[part];
+  const SurfaceLines::Near near = scene_.lines.near(part, blend(scene_.positions));
+  Painted at =
+      isProduct_ ? paintProduct(near, cloth, studio_.unit) : paintPlain(near, cloth, studio_.unit);
+  Vector3f normal = blend(scene_.normals).normalized();
+  Vector3f light = blend(light_);
+  const Vector3f edgeA = scene_.positions[c[1]] - scene_.positions[c[0]];
+  const Vector3f edgeB = scene_.positions[c[2]] - scene_.positions[c[0]];
+  if (edgeA.cross(edgeB).dot(direction) > 0) {
+    normal = -normal;
+    light = Vector3f::Constant(kInside);
+    at = {.colour = 0.5F * cloth.colour + 0.5F * cloth.thread};
+  }
+  float gloss = 0;
+  if (isProduct_) {
+    // Cloth is matt, with a nap that shines at grazing angles and the faintest gloss.
+    const float facing = std::max(0.0F, -normal.dot(direction));
+    const float mirrored = std::max(0.0F, normal.dot((key_ - direction).normalized()));
+    gloss = (0.075F * power4(1 - facing) + 0.045F * power4(power4(mirrored))) * light.mean();
+  }
+  const Vector3f lit = at.shade * (light.cwiseProduct(at.colour) + Vector3f::Constant(gloss));
+  return {(1 - at.inked) * toDisplay(lit) + at.inked * at.ink, part + 1, at.fine};
 }
 
-/// Where the ray passes the stretch: how far along the line and how far from its axis, in px of
-/// the line styles.
-Vector2d passOf(const DrawContext& context, const Stretch& stretch, const Vector3d& direction) {
-  const Vector3d axis = stretch.b - stretch.a;
-  const Vector3d toEye = context.camera.eye - stretch.a;
-  // Least distance between the ray and the segment, both as lines, then the segment clamped.
-  const double aa = axis.squaredNorm();
-  const double ad = axis.dot(direction);
-  const double denominator = aa - ad * ad;  // the direction is of unit length
-  double s =
-      denominator > 1e-12 * aa ? (axis.dot(toEye) - ad * direction.dot(toEye)) / denominator : 0.0;
-  s = std::clamp(s, 0.0, 1.0);
-  const Vector3d offset = stretch.a + s * axis - context.camera.eye;
-  const double across = (offset - offset.dot(direction) * direction).norm();
-  return {(stretch.from + s * std::sqrt(aa)) / context.unit, across / context.unit};
+Vector3f ModelRenderer::Shot::groundAt(double x, double y) const {
+  if (!isProduct_) return displayOf(kSheet);
+  const double dx = (frame_.box.x + x - frame_.ground.x) / frame_.ground.width - 0.5;
+  const double dy = (frame_.box.y + y - frame_.ground.y) / frame_.ground.height - 0.45;
+  const auto t = static_cast<float>(std::min(1.0, 1.35 * std::sqrt(dx * dx + dy * dy)));
+  return (1 - t * t) * displayOf(kGroundCentre) + t * t * displayOf(kGroundEdge);
 }
 
-}  // namespace
+Sample ModelRenderer::Shot::sampleAt(double x, double y) const {
+  const PixelBox& box = frame_.box;
+  const Vector2d at((x - box.width / 2.0) * studio_.mmPerPixel + centre_.x(),
+                    (box.height / 2.0 + frame_.shift - y) * studio_.mmPerPixel + centre_.y());
+  const bool mayHit = model_.holds(at);
+  const bool mayBeDark = studio_.ground && shadow_.holds(at);
+  if (!mayHit && !mayBeDark) return {groundAt(x, y), 0, false};
+  const Vector3f direction = (distance_ * forward_ + static_cast<float>(at.x()) * right_ +
+                              static_cast<float>(at.y()) * up_)
+                                 .normalized();
+  if (mayHit) {
+    const FirstHit hit = scene_.surface.firstHit(eye_, direction, 0, 2 * distance_);
+    if (hit.exists()) return shade(hit, direction);
+  }
+  Vector3f ground = groundAt(x, y);
+  if (mayBeDark) {
+    // Gone before the next view begins.
+    const auto side = static_cast<float>(std::min(x, box.width - x) / (0.12 * box.width));
+    const float dark = studio_.ground->at(darkness_, eye_, direction);
+    ground *= 1 - kShadowStrength * dark * std::clamp(side, 0.0F, 1.0F);
+  }
+  return {ground, 0, false};
+}
 
-ModelRenderer::ModelRenderer(const Pattern& pattern) : scene_(std::make_unique<Scene>()) {
-  scene_->addPieces(pattern);
-  scene_->addLines(pattern);
+Vector3f ModelRenderer::Shot::fineAt(int x, int y) const {
+  const int n = frame_.samples;
+  Vector3f sum = Vector3f::Zero();
+  for (int row = 0; row < n; ++row) {
+    for (int column = 0; column < n; ++column) {
+      sum += sampleAt(x + (column + 0.5) / n, y + (row + 0.5) / n).colour;
+    }
+  }
+  return sum / static_cast<float>(n * n);
+}
+
+/// One sample a pixel; many only on lines and where it differs from a neighbour.
+void ModelRenderer::Shot::drawTile(Picture& picture, int left, int top) const {
+  const auto differ = [](const Sample& a, const Sample& b) {
+    return a.part != b.part || (a.colour - b.colour).cwiseAbs().maxCoeff() > kContrastStep;
+  };
+  const PixelBox& box = frame_.box;
+  const int width = std::min(kTile, box.width - left);
+  const int height = std::min(kTile, box.height - top);
+  const int stride = width + 2;  // one pixel more on every side
+  std::vector<Sample> coarse(static_cast<std::size_t>(stride) *
+                             static_cast<std::size_t>(height + 2));
+  const auto coarseAt = [&](int x, int y) -> Sample& {
+    return coarse[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) +
+                  static_cast<std::size_t>(x + 1)];
+  };
+  for (int y = -1; y <= height; ++y) {
+    for (int x = -1; x <= width; ++x) coarseAt(x, y) = sampleAt(left + x + 0.5, top + y + 0.5);
+  }
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const Sample& here = coarseAt(x, y);
+      const bool isEdge = here.fine || differ(here, coarseAt(x - 1, y)) ||
+                          differ(here, coarseAt(x + 1, y)) || differ(here, coarseAt(x, y - 1)) ||
+                          differ(here, coarseAt(x, y + 1));
+      const Vector3f colour = isEdge ? fineAt(left + x, top + y) : here.colour;
+      const Eigen::Matrix<std::uint32_t, 3, 1> rgb =
+          (255 * colour + Vector3f::Constant(0.5F)).cast<std::uint32_t>();
+      picture.at(box.x + left + x, box.y + top + y) = rgb[0] << 16U | rgb[1] << 8U | rgb[2];
+    }
+  }
+}
+
+ModelRenderer::ModelRenderer(RenderScene scene, RenderStyle style, bool standing)
+    : studio_(std::make_unique<Studio>()) {
+  studio_->scene = std::move(scene);
+  studio_->style = style;
+  if (!standing) return;
+  Vector3f low = Vector3f::Constant(std::numeric_limits<float>::infinity());
+  Vector3f high = -low;
+  for (const Vector3f& p : studio_->scene.positions) {
+    low = low.cwiseMin(p);
+    high = high.cwiseMax(p);
+  }
+  studio_->ground.emplace(studio_->scene.surface, low, high);
 }
 
 ModelRenderer::~ModelRenderer() = default;
 
-Vector2d ModelRenderer::size(const ModelView& view) const {
-  const auto [low, high] = scene_->extent(makeCamera(scene_->middle, scene_->diagonal, view));
-  return (high - low).cwiseMax(1e-6);
+Vector2d ModelRenderer::size(const RenderView& view) const {
+  const RenderScene& scene = studio_->scene;
+  const Extent extent = studio_->extent(makeCamera(scene.middle, scene.diagonal, view));
+  return (extent.high - extent.low).cwiseMax(1e-6);
 }
 
-void ModelRenderer::draw(Picture& picture, const Frame& frame, const ModelView& view) const {
-  const Scene& scene = *scene_;
-  const PixelBox& box = frame.box;
-  const Camera camera = makeCamera(scene.middle, scene.diagonal, view);
-  const DrawContext context =
-      makeContext(scene.lines, camera, scene.extent(camera), frame.mmPerPixel * frame.lineScale);
-  const Vector3f eye = camera.eye.cast<float>();
+void ModelRenderer::setScale(const Scale& scale) {
+  studio_->mmPerPixel = scale.mmPerPixel;
+  studio_->unit = static_cast<float>(scale.lineUnit);
+  studio_->scene.lines.prepare(kPaintReach * studio_->unit);
+}
 
-  const auto sampleAt = [&](double x, double y, const Vector3d& ground) -> Sample {
-    const double right = (x - box.width / 2.0) * frame.mmPerPixel + context.centre.x();
-    const double up = (box.height / 2.0 - y) * frame.mmPerPixel + context.centre.y();
-    const bool beside = right < context.low.x() || right > context.high.x() ||
-                        up < context.low.y() || up > context.high.y();
-    if (beside) return {ground, 0};
-    const Vector3d direction =
-        (camera.distance * camera.forward + right * camera.right + up * camera.up).normalized();
-    const Vector3f ray = direction.cast<float>();
-    const auto far = static_cast<float>(2 * camera.distance);
-    const FirstHit hit = scene.surface.firstHit(eye, ray, 0, far);
-    Sample sample{hit.exists() ? scene.shade(hit, camera, direction) : ground,
-                  hit.exists() ? 1 + scene.colourOfFace[hit.primitive] : 0U};
-    // Where a line runs towards the eye the casing of one stretch hides the ink of the next: look
-    // on until there is ink or the surface.
-    const float end = std::min(hit.t, far);
-    bool cased = false;
-    float near = 0;
-    for (int pass = 0; pass < kMostTubes; ++pass) {
-      const FirstHit tube = context.tubes.firstHit(eye, ray, near, end);
-      if (!tube.exists()) break;
-      const Stretch& stretch = context.stretches[tube.primitive];
-      const LineStyle& style = scene.lines[stretch.line].style;
-      const Vector2d place = passOf(context, stretch, direction);
-      if (place.y() <= style.width / 2 && isInked(style, place.x(), place.y())) {
-        return {displayOf(style.colour), 0x10000};
-      }
-      cased = true;
-      near = tube.t + static_cast<float>(0.25 * context.unit);
-    }
-    if (cased && hit.exists()) {  // the casing helps the line on the body, not beside it
-      sample.colour += kCasingOpacity * (Vector3d::Ones() - sample.colour);
-      sample.seen = 0x20000;
-    }
-    return sample;
-  };
-
-  const auto groundAt = [&](int x, int y) -> Vector3d {
-    const double dx = (box.x + x + 0.5 - frame.ground.x) / frame.ground.width - 0.5;
-    const double dy = (box.y + y + 0.5 - frame.ground.y) / frame.ground.height - 0.45;
-    const double t = std::min(1.0, 1.5 * std::sqrt(dx * dx + dy * dy));
-    return (1 - t) * displayOf(kGroundCentre) + t * displayOf(kGroundEdge);
-  };
-
-  // One sample a pixel; many only where it differs from a neighbour: outlines and lines.
-  const auto fineAt = [&](int x, int y) -> Vector3d {
-    const int n = frame.samples + 1;
-    const Vector3d ground = groundAt(x, y);
-    Vector3d sum = Vector3d::Zero();
-    for (int i = 0; i < n * n; ++i) {
-      const int column = i % n;
-      const int row = i / n;
-      sum += sampleAt(x + (column + 0.5) / n, y + (row + 0.5) / n, ground).colour;
-    }
-    return sum / (n * n);
-  };
-  const auto differ = [](const Sample& a, const Sample& b) {
-    return a.seen != b.seen || (a.colour - b.colour).cwiseAbs().maxCoeff() > kContrastStep;
-  };
-  const auto drawTile = [&](int left, int top) {
-    const int width = std::min(kTile, box.width - left);
-    const int height = std::min(kTile, box.height - top);
-    const int stride = width + 2;  // one pixel more on every side
-    std::vector<Sample> coarse(static_cast<std::size_t>(stride) *
-                               static_cast<std::size_t>(height + 2));
-    const auto coarseAt = [&](int x, int y) -> Sample& {
-      return coarse[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(stride) +
-                    static_cast<std::size_t>(x + 1)];
-    };
-    for (int y = -1; y <= height; ++y) {
-      for (int x = -1; x <= width; ++x) {
-        coarseAt(x, y) = sampleAt(left + x + 0.5, top + y + 0.5, groundAt(left + x, top + y));
-      }
-    }
-    for (int y = 0; y < height; ++y) {
-      for (int x = 0; x < width; ++x) {
-        const Sample& here = coarseAt(x, y);
-        const bool edge = differ(here, coarseAt(x - 1, y)) || differ(here, coarseAt(x + 1, y)) ||
-                          differ(here, coarseAt(x, y - 1)) || differ(here, coarseAt(x, y + 1));
-        const Vector3d colour = edge ? fineAt(left + x, top + y) : here.colour;
-        const Eigen::Matrix<std::uint32_t, 3, 1> rgb =
-            (255 * colour + Vector3d::Constant(0.5)).cast<std::uint32_t>();
-        picture.at(box.x + left + x, box.y + top + y) = rgb[0] << 16U | rgb[1] << 8U | rgb[2];
-      }
-    }
-  };
-  const int columns = (box.width + kTile - 1) / kTile;
-  const int rows = (box.height + kTile - 1) / kTile;
+void ModelRenderer::draw(Picture& picture, const Frame& frame, const RenderView& view,
+                         const Progress* progress) const {
+  const Shot shot(*studio_, frame, view);
+  const int columns = (frame.box.width + kTile - 1) / kTile;
+  const int rows = (frame.box.height + kTile - 1) / kTile;
   parallelFor(static_cast<std::size_t>(columns) * static_cast<std::size_t>(rows),
               [&](std::size_t tile) {
+                if (isCancelled(progress)) return;
                 const int index = static_cast<int>(tile);
-                drawTile(index % columns * kTile, index / columns * kTile);
+                shot.drawTile(picture, index % columns * kTile, index / columns * kTile);
               });
 }
 

@@ -3,44 +3,47 @@
 
 #include <Eigen/Core>
 #include <memory>
-#include <vector>
 
-#include "io/drawing_style.h"
 #include "io/picture.h"
-#include "toile/layout/pattern.h"
+#include "io/render_scene.h"
 
 namespace toile {
 
-/// From where the model is seen. Angles about the vertical: 0 looks at its front.
-struct ModelView {
-  double turn = 0;   ///< radians, positive shows more of the model's left
-  double above = 0;  ///< radians, how far the eye stands above the middle
-};
-
-/// The model in clay and fabric tints with its lines, ray traced. Builds its trees once and draws
-/// any number of views; every view is a function of the pattern alone.
+/// The model in the made design, ray traced in a studio. Builds its trees once and draws any number
+/// of views; every view is a function of the scene alone.
 class ModelRenderer {
  public:
-  explicit ModelRenderer(const Pattern& pattern);
+  /// @param standing whether it throws a shadow on the ground below it
+  ModelRenderer(RenderScene scene, RenderStyle style, bool standing);
   ~ModelRenderer();
   ModelRenderer(const ModelRenderer&) = delete;
   ModelRenderer& operator=(const ModelRenderer&) = delete;
 
   /// Width and height of the model in a view, mm in the plane through its middle.
-  [[nodiscard]] Eigen::Vector2d size(const ModelView& view) const;
+  [[nodiscard]] Eigen::Vector2d size(const RenderView& view) const;
+
+  /// Of all views drawn from now on.
+  struct Scale {
+    double mmPerPixel = 1;
+    double lineUnit = 1;  ///< mm per px of the line styles
+  };
+  void setScale(const Scale& scale);
 
   struct Frame {
     PixelBox box;     ///< filled whole, the model in its middle
     PixelBox ground;  ///< over which the ground shades, so that views side by side share it
-    double mmPerPixel = 1;
-    int samples = 2;  ///< one more per pixel and axis where outlines and lines pass, 1 elsewhere
-    double lineScale = 1;  ///< px of the picture per px of the line styles
+    int samples = 3;  ///< per pixel and axis where outlines and lines pass, 1 elsewhere
+    int shift = 0;    ///< px that the model stands below the middle of the box
   };
-  void draw(Picture& picture, const Frame& frame, const ModelView& view) const;
+  /// Leaves the box unfinished when cancelled.
+  void draw(Picture& picture, const Frame& frame, const RenderView& view,
+            const Progress* progress) const;
 
  private:
-  struct Scene;
-  std::unique_ptr<Scene> scene_;
+  struct Extent;
+  struct Studio;
+  class Shot;
+  std::unique_ptr<Studio> studio_;
 };
 
 }  // namespace toile

@@ -7,12 +7,16 @@
 
 #include <Eigen/Core>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <memory>
+#include <optional>
+#include <utility>
 #include <vector>
 
 #include "io/drawing_style.h"
+#include "io/label_fit.h"
+#include "io/panel_colours.h"
+#include "io/strain_map.h"
 
 namespace toile {
 namespace {
@@ -21,8 +25,8 @@ using Eigen::Vector2d;
 
 constexpr double kMargin = 34;        // px of the style, round the pieces
 constexpr double kScaleBarRoom = 26;  // px of the style, below them
-constexpr double kLabelSize = 11.5;   // px of the style
-constexpr double kLeastLabelSize = 7;
+constexpr double kLabelSize = 11;     // px of the style
+constexpr double kLeastLabelSize = 5;
 
 struct CairoEnd {
   void operator()(cairo_t* c) const { cairo_destroy(c); }
@@ -65,22 +69,104 @@ void setStroke(cairo_t* cairo, const LineStyle& style, double scale) {
   cairo_set_dash(cairo, dashes.data(), static_cast<int>(dashes.size()), 0);
 }
 
+/// A block of text, its lines centred under each other.
+class TextBlock {
+ public:
+  TextBlock(cairo_t* cairo, const std::string& text, double size, bool bold)
+      : layout_(pango_cairo_create_layout(cairo)) {
+    PangoFontDescription* font = pango_font_description_from_string("Inter,Noto Sans,DejaVu Sans");
+    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
+    pango_font_description_set_weight(font, bold ? PANGO_WEIGHT_SEMIBOLD : PANGO_WEIGHT_NORMAL);
+    pango_layout_set_font_description(layout_.get(), font);
+    pango_font_description_free(font);
+    pango_layout_set_alignment(layout_.get(), PANGO_ALIGN_CENTER);
+    pango_layout_set_text(layout_.get(), text.c_str(), static_cast<int>(text.size()));
+  }
+  [[nodiscard]] Vector2d size() const {
+    int width = 0;
+    int height = 0;
+    pango_layout_get_size(layout_.get(), &width, &height);
+    return Vector2d(width, height) / PANGO_SCALE;
+  }
+  /// From the left end of the first base line.
+  void draw(cairo_t* cairo, double x, double y) const {
+    cairo_move_to(cairo, x,
+                  y - static_cast<double>(pango_layout_get_baseline(layout_.get())) / PANGO_SCALE);
+    pango_cairo_show_layout(cairo, layout_.get());
+  }
+  /// Round its middle, turned, with a pale rim where lines may run beneath.
+  void drawRound(cairo_t* cairo, const Vector2d& middle, double angle, double rim) const {
+    cairo_save(cairo);
+    cairo_translate(cairo, middle.x(), middle.y());
+    cairo_rotate(cairo, angle);
+    cairo_new_path(cairo);
+    cairo_move_to(cairo, -size().x() / 2, -size().y() / 2);
+    pango_cairo_layout_path(cairo, layout_.get());
+    cairo_set_dash(cairo, nullptr, 0, 0);
+    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
+    cairo_set_line_width(cairo, 2 * rim);
+    cairo_set_source_rgba(cairo, 1, 1, 1, 0.5);
+    cairo_stroke_preserve(cairo);
+    setColour(cairo, kText);
+    cairo_fill(cairo);
+    cairo_restore(cairo);
+  }
+
+ private:
+  std::unique_ptr<PangoLayout, CairoEnd> layout_;
+};
+
+/// The words of a name in one line, in two of about the same length, and each in its own.
+std::vector<std::string> waysToBreak(const std::string& name) {
+  std::vector<std::string> ways = {name};
+  std::size_t best = std::string::npos;
+  const auto unevenness = [&](std::size_t at) {
+    return std::max(at, name.size() - at) - std::min(at, name.size() - at);
+  };
+  for (std::size_t at = name.find(' '); at != std::string::npos; at = name.find(' ', at + 1)) {
+    if (best == std::string::npos || unevenness(at) < unevenness(best)) best = at;
+  }
+  if (best == std::string::npos) return ways;
+  ways.push_back(name);
+  ways.back()[best] = '\n';
+  std::string words = name;
+  std::ranges::replace(words, ' ', '\n');
+  if (words != ways.back()) ways.push_back(words);
+  return ways;
+}
+
+/// How the pieces are coloured.
+struct SheetColours {
+  std::vector<Colour> cloth;  ///< per piece of the cut
+  bool product = true;
+  std::optional<double> strainScale;  ///< coloured by strain if set
+};
+
 class SheetPainter {
  public:
-  SheetPainter(cairo_t* cairo, SheetFrame frame) : cairo_(cairo), frame_(frame) {}
+  SheetPainter(cairo_t* cairo, SheetFrame frame, const Pattern& pattern, SheetColours colours)
+      : cairo_(cairo), frame_(frame), pattern_(pattern), colours_(std::move(colours)) {}
 
-  void paint(const PatternPiece& piece, const Placement& placement, Colour tint) {
-    placement_ = &placement;
+  void paint(std::size_t index) {
+    const PatternPiece& piece = pattern_.pieces[index];
+    placement_ = &pattern_.layout.placements[index];
+    const std::uint32_t source = pattern_.pieceIndex[index];
+    cloth_ = colours_.cloth[source];
     addOutlines(piece.cutLines);
     setColour(cairo_, {255, 255, 255});
     cairo_fill_preserve(cairo_);
-    setStroke(cairo_, {kCutLine, Dash::Solid, 0.9}, frame_.scale);
+    setStroke(cairo_, {kCutLine, Dash::Solid, 0.8}, frame_.scale);
     cairo_stroke(cairo_);
-    addOutlines(piece.sewLines);
-    setColour(cairo_, tint);
-    cairo_fill(cairo_);
+    if (colours_.strainScale) {
+      paintStrain(pattern_.cut.pieces[source], *pattern_.flats[source]);
+    } else {
+      addOutlines(piece.sewLines);
+      setColour(cairo_, cloth_);
+      cairo_fill(cairo_);
+    }
     for (const InternalLine& line : piece.internalLines) paintInternal(line);
     for (const OutlineRun& run : piece.runs) paintRun(piece, run);
+    if (colours_.strainScale) return;  // nothing else on the map
     for (const Notch& notch : piece.notches) paintNotch(notch);
     paintGrain(piece);
     paintLabel(piece);
@@ -102,15 +188,35 @@ class SheetPainter {
     }
   }
 
+  void paintStrain(const Piece& piece, const FlatPiece& flat) {
+    // Without anti-aliasing no gaps show between faces; the sew line covers the steps at the rim.
+    cairo_set_antialias(cairo_, CAIRO_ANTIALIAS_NONE);
+    for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) {
+      const Triangle& t = piece.mesh->vertices(FaceId(f));
+      cairo_new_path(cairo_);
+      for (const VertexId v : t) lineTo(flat.position[v]);
+      setColour(cairo_, strainColour(strainOf(flat.distortion[FaceId(f)]) / *colours_.strainScale));
+      cairo_fill(cairo_);
+    }
+    cairo_set_antialias(cairo_, CAIRO_ANTIALIAS_DEFAULT);
+  }
+
+  /// In products lines are a shade of their cloth, in plain pictures they tell their kinds.
+  [[nodiscard]] LineStyle styled(LineStyle style, double width) const {
+    style.width = width;
+    if (colours_.product) style.colour = mix(cloth_, colourOf(0x14191F), 0.8);
+    return style;
+  }
+
   void paintInternal(const InternalLine& line) {
     if (line.points.empty()) return;
     cairo_new_path(cairo_);
     moveTo(line.points.front());
     for (const Vector2d& p : line.points) lineTo(p);
     if (line.closed) cairo_close_path(cairo_);
-    LineStyle style = lineStyle(line.kind);
-    style.width *= 0.75;  // the sheet's lines are finer than the model's
-    setStroke(cairo_, style, frame_.scale * 0.8);
+    // The sheet's lines are finer than the model's.
+    const double width = colours_.product ? 0.9 : 0.75 * lineStyle(line.kind).width;
+    setStroke(cairo_, styled(lineStyle(line.kind), width), frame_.scale * 0.8);
     cairo_stroke(cairo_);
   }
 
@@ -123,9 +229,8 @@ class SheetPainter {
     for (std::size_t i = 1; i <= run.edgeCount; ++i) {
       lineTo(outline[(run.first + i) % outline.size()].position);
     }
-    LineStyle style = lineStyle(run.kind);
-    style.width = run.kind == WireKind::Border ? 1.3 : 1.7;
-    setStroke(cairo_, style, frame_.scale);
+    setStroke(cairo_, styled(lineStyle(run.kind), run.kind == WireKind::Border ? 1.2 : 1.5),
+              frame_.scale);
     cairo_stroke(cairo_);
   }
 
@@ -133,7 +238,7 @@ class SheetPainter {
     cairo_new_path(cairo_);
     moveTo(notch.position);
     lineTo(notch.position + notch.depth * notch.direction);
-    setStroke(cairo_, {kText, Dash::Solid, 1.1}, frame_.scale);
+    setStroke(cairo_, {kText, Dash::Solid, 1.0}, frame_.scale);
     cairo_stroke(cairo_);
   }
 
@@ -147,7 +252,7 @@ class SheetPainter {
     cairo_new_path(cairo_);
     cairo_move_to(cairo_, low.x(), low.y());
     cairo_line_to(cairo_, high.x(), high.y());
-    const double barb = 4 * frame_.scale;
+    const double barb = 3.5 * frame_.scale;
     for (const auto& [tip, sign] : {std::pair(low, 1.0), std::pair(high, -1.0)}) {
       for (const double side : {-0.6, 0.6}) {
         const Vector2d end = tip + barb * (sign * along + side * across);
@@ -155,99 +260,48 @@ class SheetPainter {
         cairo_line_to(cairo_, end.x(), end.y());
       }
     }
-    setStroke(cairo_, {kSecondText, Dash::Solid, 1.0}, frame_.scale);
+    setStroke(cairo_, styled({kSecondText, Dash::Solid, 0}, 0.8), frame_.scale);
     cairo_stroke(cairo_);
   }
 
-  void paintLabel(const PatternPiece& piece);
+  void paintLabel(const PatternPiece& piece) {
+    if (piece.name.empty()) return;
+    LabelRoom room;
+    for (const Outline& outline : piece.sewLines) {
+      room.outlines.emplace_back();
+      for (const OutlinePoint& point : outline) room.outlines.back().push_back(at(point.position));
+    }
+    for (const InternalLine& line : piece.internalLines) {
+      room.lines.emplace_back();
+      for (const Vector2d& p : line.points) room.lines.back().push_back(at(p));
+    }
+    room.lines.push_back({at(piece.grain[0]), at(piece.grain[1])});
+    room.wish = at(piece.labelPosition);
+
+    std::vector<std::string> texts = waysToBreak(piece.name);
+    std::vector<LabelBlock> blocks;
+    for (const std::string& text : texts) {
+      constexpr double kMeasure = 100;
+      const Vector2d size = TextBlock(cairo_, text, kMeasure, false).size() / kMeasure;
+      blocks.push_back({size.x(), size.y(), blocks.empty() ? 1.0 : 0.9});
+    }
+    // Better a number than nothing where the name does not fit.
+    texts.push_back(fmt::format("{}", piece.number));
+    blocks.push_back({0.7, 1.2, 0.05});
+    const std::optional<LabelPlace> place =
+        fitLabel(room, blocks, kLabelSize * frame_.scale, kLeastLabelSize * frame_.scale);
+    if (!place) return;
+    TextBlock(cairo_, texts[place->block], place->size, false)
+        .drawRound(cairo_, place->middle, place->angle, 1.3 * frame_.scale);
+  }
 
   cairo_t* cairo_;
   SheetFrame frame_;
+  const Pattern& pattern_;
+  SheetColours colours_;
   const Placement* placement_ = nullptr;
+  Colour cloth_;
 };
-
-/// Width and height of a line of text whose origin is the left end of its base line.
-class TextLine {
- public:
-  TextLine(cairo_t* cairo, const std::string& text, double size, bool bold)
-      : layout_(pango_cairo_create_layout(cairo)) {
-    PangoFontDescription* font = pango_font_description_from_string("Inter,Noto Sans,DejaVu Sans");
-    pango_font_description_set_absolute_size(font, size * PANGO_SCALE);
-    pango_font_description_set_weight(font, bold ? PANGO_WEIGHT_SEMIBOLD : PANGO_WEIGHT_NORMAL);
-    pango_layout_set_font_description(layout_.get(), font);
-    pango_font_description_free(font);
-    pango_layout_set_text(layout_.get(), text.c_str(), static_cast<int>(text.size()));
-  }
-  [[nodiscard]] double width() const {
-    int width = 0;
-    pango_layout_get_pixel_size(layout_.get(), &width, nullptr);
-    return width;
-  }
-  /// With a pale rim, so that lines beneath do not disturb reading.
-  void drawWithHalo(cairo_t* cairo, double x, double y, double rim) const {
-    cairo_new_path(cairo);
-    cairo_move_to(cairo, x,
-                  y - static_cast<double>(pango_layout_get_baseline(layout_.get())) / PANGO_SCALE);
-    pango_cairo_layout_path(cairo, layout_.get());
-    cairo_set_dash(cairo, nullptr, 0, 0);
-    cairo_set_line_join(cairo, CAIRO_LINE_JOIN_ROUND);
-    cairo_set_line_width(cairo, 2 * rim);
-    cairo_set_source_rgba(cairo, 1, 1, 1, 0.6);
-    cairo_stroke_preserve(cairo);
-    setColour(cairo, kText);
-    cairo_fill(cairo);
-  }
-  void draw(cairo_t* cairo, double x, double y) const {
-    cairo_move_to(cairo, x,
-                  y - static_cast<double>(pango_layout_get_baseline(layout_.get())) / PANGO_SCALE);
-    pango_cairo_show_layout(cairo, layout_.get());
-  }
-
- private:
-  std::unique_ptr<PangoLayout, CairoEnd> layout_;
-};
-
-/// The stretch of the horizontal line through a point that lies inside the outlines around it, px.
-std::array<double, 2> roomAround(const std::vector<std::vector<Vector2d>>& loops,
-                                 const Vector2d& point) {
-  std::array<double, 2> room = {-1e300, 1e300};
-  for (const std::vector<Vector2d>& loop : loops) {
-    for (std::size_t i = 0; i < loop.size(); ++i) {
-      const Vector2d& a = loop[i];
-      const Vector2d& b = loop[(i + 1) % loop.size()];
-      if ((a.y() > point.y()) == (b.y() > point.y())) continue;
-      const double x = a.x() + (point.y() - a.y()) / (b.y() - a.y()) * (b.x() - a.x());
-      if (x <= point.x()) room[0] = std::max(room[0], x);
-      if (x > point.x()) room[1] = std::min(room[1], x);
-    }
-  }
-  return room;
-}
-
-void SheetPainter::paintLabel(const PatternPiece& piece) {
-  if (piece.name.empty() || piece.sewLines.empty()) return;
-  std::vector<std::vector<Vector2d>> loops;
-  for (const Outline& outline : piece.sewLines) {
-    loops.emplace_back();
-    for (const OutlinePoint& point : outline) loops.back().push_back(at(point.position));
-  }
-  Vector2d middle = at(piece.labelPosition);
-  const auto [left, right] = roomAround(loops, middle);
-  if (left < -1e299 || right > 1e299) return;
-  double size = kLabelSize * frame_.scale;
-  double width = TextLine(cairo_, piece.name, size, false).width();
-  const double room = 0.86 * (right - left);
-  if (width > room) {
-    size = std::max(size * room / width, kLeastLabelSize * frame_.scale);
-    width = TextLine(cairo_, piece.name, size, false).width();
-  }
-  const double slack = std::max(0.0, (right - left - width) / 2);
-  middle.x() =
-      std::clamp(middle.x(), left + width / 2 + 0.2 * slack,
-                 std::max(right - width / 2 - 0.2 * slack, left + width / 2 + 0.2 * slack));
-  const TextLine text(cairo_, piece.name, size, false);
-  text.drawWithHalo(cairo_, middle.x() - width / 2, middle.y() + size / 3, 2.5 * frame_.scale);
-}
 
 /// The largest of 10, 20, 50, 100, ... mm that takes at most that many.
 double roundLength(double mm) {
@@ -271,14 +325,35 @@ void drawScaleBar(cairo_t* cairo, const PixelBox& box, const SheetFrame& frame) 
   cairo_line_to(cairo, left + length, y - tick);
   setStroke(cairo, {kSecondText, Dash::Solid, 1.1}, frame.scale);
   cairo_stroke(cairo);
-  const TextLine text(cairo, fmt::format("{:g} mm", mm), 11 * frame.scale, false);
+  const TextBlock text(cairo, fmt::format("{:g} mm", mm), 11 * frame.scale, false);
   setColour(cairo, kSecondText);
-  text.draw(cairo, left + (length - text.width()) / 2, y - 5 * frame.scale);
+  text.draw(cairo, left + (length - text.size().x()) / 2, y - 5 * frame.scale);
+}
+
+/// A bar of the strain colours with what they mean.
+void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& frame, double scale) {
+  constexpr int kShades = 41;
+  const double length = 0.30 * box.width;
+  const double left = box.x + kMargin * frame.scale;
+  const double y = box.y + box.height - 30 * frame.scale;
+  for (int i = 0; i < kShades; ++i) {
+    cairo_rectangle(cairo, left + length * i / kShades, y, length / kShades + 0.5, 8 * frame.scale);
+    setColour(cairo, strainColour(2.0 * i / (kShades - 1) - 1));
+    cairo_fill(cairo);
+  }
+  const int percent = static_cast<int>(std::lround(100 * scale));
+  setColour(cairo, kSecondText);
+  const TextBlock less(cairo, fmt::format("\u2212{} % too much cloth", percent), 10 * frame.scale,
+                       false);
+  const TextBlock more(cairo, fmt::format("must stretch +{} %", percent), 10 * frame.scale, false);
+  less.draw(cairo, left, y - 4 * frame.scale);
+  more.draw(cairo, left + length - more.size().x(), y - 4 * frame.scale);
 }
 
 }  // namespace
 
-void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern, double scale) {
+void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
+               const RenderOptions& options, double scale) {
   const Cairo cairo = drawOn(picture);
   cairo_rectangle(cairo.get(), box.x, box.y, box.width, box.height);
   cairo_clip_preserve(cairo.get());
@@ -296,19 +371,22 @@ void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern, do
       box.x + box.width / 2.0 - frame.pixelsPerMm * middle.x(),
       box.y + (box.height - kScaleBarRoom * scale) / 2.0 + frame.pixelsPerMm * middle.y()};
 
-  const std::vector<Colour> tints = pieceColours(pattern.cut);
-  SheetPainter painter(cairo.get(), frame);
-  for (std::size_t i = 0; i < pattern.pieces.size() && i < pattern.layout.placements.size(); ++i) {
-    painter.paint(pattern.pieces[i], pattern.layout.placements[i], tints[pattern.pieceIndex[i]]);
-  }
-  if (!pattern.pieces.empty()) drawScaleBar(cairo.get(), box, frame);
+  SheetColours colours;
+  colours.cloth = panelColours(pattern, options.style).flat;
+  colours.product = options.style == RenderStyle::Product;
+  if (options.pieces == RenderPieces::Strain) colours.strainScale = strainScale(pattern);
+  SheetPainter painter(cairo.get(), frame, pattern, colours);
+  for (std::size_t i = 0; i < pattern.pieces.size(); ++i) painter.paint(i);
+  if (pattern.pieces.empty()) return;
+  drawScaleBar(cairo.get(), box, frame);
+  if (colours.strainScale) drawStrainLegend(cairo.get(), box, frame, *colours.strainScale);
 }
 
 void drawCaption(Picture& picture, const Caption& caption) {
   const Cairo cairo = drawOn(picture);
-  const TextLine text(cairo.get(), caption.text, caption.size, caption.bold);
+  const TextBlock text(cairo.get(), caption.text, caption.size, caption.bold);
   setColour(cairo.get(), caption.bold ? kText : kSecondText);
-  text.draw(cairo.get(), caption.centred ? caption.x - text.width() / 2 : caption.x, caption.y);
+  text.draw(cairo.get(), caption.centred ? caption.x - text.size().x() / 2 : caption.x, caption.y);
 }
 
 }  // namespace toile

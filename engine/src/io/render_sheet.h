@@ -4,13 +4,14 @@
 #include <string>
 
 #include "io/picture.h"
-#include "toile/layout/pattern.h"
+#include "toile/io/render.h"
 
 namespace toile {
 
 /// Draws the placed pattern pieces, as large as fits, with a scale bar. Fills the box.
 /// @param scale px of this picture per px of the line styles
-void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern, double scale);
+void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
+               const RenderOptions& options, double scale);
 
 struct Caption {
   std::string text;

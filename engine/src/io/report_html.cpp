@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "io/markup.h"
 #include "io/report_data.h"
 #include "io/strain_map.h"
 #include "toile/core/version.h"
@@ -44,29 +45,6 @@ sup{font-size:.72em;line-height:0}
 @media print{:root{background:#fff;font-size:10.5pt}body{margin:0;max-width:none;padding:0}.pieces{grid-template-columns:repeat(3,1fr)}}
 @page{margin:15mm}
 )";
-
-std::string escaped(std::string_view text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        out += c;
-    }
-  }
-  return out;
-}
 
 constexpr const char* kThinSpace = "\u202f";
 

@@ -22,10 +22,6 @@ constexpr std::array kStops = {colourOf(0x1B3B8C), colourOf(0x5B86CF), colourOf(
                                colourOf(0x8F2E06)};
 constexpr int kShades = 31;  // of the map; an odd number, so that "no strain" is one of them
 
-std::string hex(Colour c) {
-  return fmt::format("#{:02x}{:02x}{:02x}", c.r, c.g, c.b);
-}
-
 /// Path data of all faces of one shade.
 void addFace(std::string& path, const std::array<Vector2d, 3>& p) {
   path += fmt::format("M{:.1f} {:.1f}L{:.1f} {:.1f} {:.1f} {:.1f}z", p[0].x(), -p[0].y(), p[1].x(),
@@ -54,7 +50,7 @@ std::string wirePath(const Wire& wire, const FlatPiece& flat, double unit) {
   return fmt::format(
       "<path d=\"{}\" fill=\"none\" stroke=\"{}\" stroke-width=\"{:.2f}\" "
       "stroke-linejoin=\"round\"{}/>",
-      d, hex(style.colour), 0.65 * style.width * unit, dash);
+      d, toHex(style.colour), 0.65 * style.width * unit, dash);
 }
 
 }  // namespace
@@ -84,16 +80,10 @@ double strainScale(const Pattern& pattern) {
   return kScales.back();
 }
 
-std::string strainColour(double relative) {
+Colour strainColour(double relative) {
   const double at = (std::clamp(relative, -1.0, 1.0) + 1) / 2 * (kStops.size() - 1);
   const std::size_t i = std::min(static_cast<std::size_t>(at), kStops.size() - 2);
-  const double t = at - static_cast<double>(i);
-  const auto mix = [t](std::uint8_t a, std::uint8_t b) {
-    return static_cast<std::uint8_t>(std::lround((1 - t) * a + t * b));
-  };
-  const Colour& a = kStops[i];
-  const Colour& b = kStops[i + 1];
-  return hex({mix(a.r, b.r), mix(a.g, b.g), mix(a.b, b.b)});
+  return mix(kStops[i], kStops[i + 1], at - static_cast<double>(i));
 }
 
 std::string strainMapSvg(const Piece& piece, const FlatPiece& flat, double scale) {
@@ -123,7 +113,8 @@ std::string strainMapSvg(const Piece& piece, const FlatPiece& flat, double scale
   svg += fmt::format("<g stroke-width=\"{:.2f}\" stroke-linejoin=\"round\">", 0.4 * unit);
   for (std::size_t i = 0; i < shades.size(); ++i) {
     if (shades[i].empty()) continue;
-    const std::string colour = strainColour(2.0 * static_cast<double>(i) / (kShades - 1) - 1);
+    const std::string colour =
+        toHex(strainColour(2.0 * static_cast<double>(i) / (kShades - 1) - 1));
     svg += fmt::format("<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>", colour, shades[i]);
   }
   svg += "</g>";
@@ -138,7 +129,7 @@ std::string strainLegendSvg(double scale) {
   for (int i = 0; i < kShades; ++i) {
     svg += fmt::format("<rect x=\"{:.2f}\" y=\"0\" width=\"{:.2f}\" height=\"12\" fill=\"{}\"/>",
                        320.0 * i / kShades, 320.0 / kShades + 0.3,
-                       strainColour(2.0 * i / (kShades - 1) - 1));
+                       toHex(strainColour(2.0 * i / (kShades - 1) - 1)));
   }
   const int percent = static_cast<int>(std::lround(100 * scale));
   svg += fmt::format(

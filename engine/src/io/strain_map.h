@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "io/colour.h"
 #include "toile/layout/pattern.h"
 
 namespace toile {
@@ -15,8 +16,8 @@ namespace toile {
 /// unfolded area.
 [[nodiscard]] double strainScale(const Pattern& pattern);
 
-/// "#rrggbb" for a strain divided by the scale; beyond -1..1 the end colours.
-[[nodiscard]] std::string strainColour(double relative);
+/// For a strain divided by the scale; beyond -1..1 the end colours.
+[[nodiscard]] Colour strainColour(double relative);
 
 /// An <svg> of one flat piece: strain in colours, wires as lines, y up turned into y down.
 [[nodiscard]] std::string strainMapSvg(const Piece& piece, const FlatPiece& flat, double scale);

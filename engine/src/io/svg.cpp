@@ -8,36 +8,13 @@
 #include <iterator>
 #include <numbers>
 
+#include "io/markup.h"
 #include "io/sheet_drawing.h"
 
 namespace toile {
 namespace {
 
 constexpr double kMarginMm = 10;
-
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) {
-    switch (c) {
-      case '&':
-        out += "&amp;";
-        break;
-      case '<':
-        out += "&lt;";
-        break;
-      case '>':
-        out += "&gt;";
-        break;
-      case '"':
-        out += "&quot;";
-        break;
-      default:
-        // XML 1.0 has no way to write other control characters.
-        out += static_cast<unsigned char>(c) < 0x20 ? ' ' : c;
-    }
-  }
-  return out;
-}
 
 /// Thousandths of a millimetre, without trailing zeros and never "-0".
 std::string number(double mm) {

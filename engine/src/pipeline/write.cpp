@@ -23,10 +23,10 @@ struct Product {
   std::function<Result<std::string>()> make;
 };
 
-std::vector<Product> productsOf(const Pattern& pattern) {
+std::vector<Product> productsOf(const Pattern& pattern, Progress* progress) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
-       [&] { return renderPreview(pattern); }},
+       [&, progress] { return renderPattern(pattern, {}, progress); }},
       {"pattern.pdf", "the pieces at 1:1, to print", [&] { return writePdf(pattern); }},
       {"report.html", "every piece, every seam length, findings, for the browser",
        [&] { return Result<std::string>(writeReportHtml(pattern)); }},
@@ -56,7 +56,7 @@ Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesyste
   Pattern told = pattern;
   told.findings.insert(told.findings.end(), dxf.findings.begin(), dxf.findings.end());
 
-  const std::vector<Product> products = productsOf(told);
+  const std::vector<Product> products = productsOf(told, progress);
   std::vector<Result<std::string>> contents(products.size(), std::string());
   parallelFor(products.size(), [&](std::size_t i) { contents[i] = products[i].make(); });
   if (isCancelled(progress)) {

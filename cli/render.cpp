@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// `toile render`: a picture of a design on its model, or of a model alone.
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cstdio>
+#include <filesystem>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <optional>
+
+#include "commands.h"
+#include "terminal_progress.h"
+#include "toile/core/file.h"
+#include "toile/io/render.h"
+#include "toile/pipeline.h"
+#include "toile/shape/builtin.h"
+
+namespace toile::cli {
+namespace {
+
+struct Arguments {
+  std::string in;
+  std::optional<std::string> body;
+  std::filesystem::path out;
+  bool autoCut = false;
+  RenderOptions options;
+};
+
+void readViews(const std::vector<std::string>& lists, std::vector<RenderView>& views) {
+  views.clear();
+  if (lists == std::vector<std::string>{"none"}) return;
+  for (const std::string& list : lists) {
+    const Result<std::vector<RenderView>> more = parseViews(list);
+    if (!more) throw CLI::ValidationError("--view: " + more.error().message);
+    views.insert(views.end(), more->begin(), more->end());
+  }
+}
+
+void readSize(const std::string& text, RenderOptions& options) {
+  const char* end = text.data() + text.size();
+  const auto width = std::from_chars(text.data(), end, options.width);
+  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
+    const auto height = std::from_chars(width.ptr + 1, end, options.height);
+    if (height.ec == std::errc() && height.ptr == end) return;
+  }
+  throw CLI::ValidationError("--size: \"" + text +
+                             "\" is no size; write width and height in px, such as 1600x1000");
+}
+
+template <class Choice>
+void addChoice(CLI::App& command, const std::string& name, Choice& target,
+               std::vector<std::pair<std::string, Choice>> choices, const std::string& help) {
+  std::string names;
+  for (const auto& [word, value] : choices) names += (names.empty() ? "" : ", ") + word;
+  command
+      .add_option_function<std::string>(
+          name,
+          [&target, choices, names, name](const std::string& text) {
+            for (const auto& [word, value] : choices) {
+              if (word != text) continue;
+              target = value;
+              return;
+            }
+            throw CLI::ValidationError(name + ": \"" + text + "\" is none of " + names);
+          },
+          help + ": " + names)
+      ->type_name("NAME");
+}
+
+struct Drawn {
+  Result<std::string> png;
+  std::vector<Finding> findings;
+  std::vector<Error> failures;  ///< pieces that the picture cannot show flat
+};
+
+Drawn drawDesign(const Arguments& arguments, const Session& session, Progress& progress) {
+  const Result<Document> document = openDocument(arguments.in, arguments.body, session.units);
+  if (!document) return {document.error(), {}, {}};
+  MakeOptions options;
+  options.autoCut = arguments.autoCut;
+  const Result<Pattern> pattern = makePattern(*document, options, nullptr, &progress);
+  if (!pattern) return {pattern.error(), {}, {}};
+  progress.step("draw the picture");
+  Drawn drawn{renderPattern(*pattern, arguments.options, &progress), pattern->findings, {}};
+  for (const std::optional<Error>& failure : pattern->failures) {
+    if (failure) drawn.failures.push_back(*failure);
+  }
+  return drawn;
+}
+
+Drawn drawModel(const Arguments& arguments, const Session& session, Progress& progress) {
+  const Result<ReferenceModel> model = isBuiltin(arguments.in)
+                                           ? makeBuiltinModel(arguments.in)
+                                           : readModel(arguments.in, session.units);
+  if (!model) return {model.error(), {}, {}};
+  progress.step("draw the picture");
+  return {renderModel(*model, arguments.options, &progress), model->findings, {}};
+}
+
+int refuse(const std::string& sentence) {
+  std::fprintf(stderr, "toile: %s (toile render --help)\n", sentence.c_str());
+  return kWrongCommandLine;
+}
+
+int run(const Arguments& arguments, const Session& session) {
+  const bool isDesign = std::filesystem::path(arguments.in).extension() == ".toile";
+  if (arguments.body && !isDesign) {
+    return refuse("--body is for designs, and " + arguments.in + " is a model");
+  }
+  if (const Result<void> fine = checkOptions(arguments.options); !fine) {
+    return refuse(fine.error().message);
+  }
+  TerminalProgress progress;
+  progress.step("open " + arguments.in);
+  const Drawn drawn =
+      isDesign ? drawDesign(arguments, session, progress) : drawModel(arguments, session, progress);
+  if (!drawn.png) return fail(drawn.png.error());
+  const Result<void> written = writeFileWhole(arguments.out, *drawn.png);
+  if (!written) return fail(written.error());
+  int status = report(drawn.findings, session);
+  for (const Error& failure : drawn.failures) status = fail(failure);
+  if (session.json) {
+    const nlohmann::ordered_json json = {{"picture", arguments.out.string()},
+                                         {"width", arguments.options.width},
+                                         {"height", arguments.options.height},
+                                         {"complete", drawn.failures.empty()}};
+    std::printf("%s\n", json.dump(2, ' ', false, nlohmann::json::error_handler_t::replace).c_str());
+  }
+  return status;
+}
+
+}  // namespace
+
+void addRender(CLI::App& app, Session& session) {
+  auto arguments = std::make_shared<Arguments>();
+  CLI::App* command =
+      addCommand(app, session, "render", "A picture of a design on its model, or of a model",
+                 [arguments, &session] { return run(*arguments, session); });
+  command
+      ->add_option("FILE", arguments->in,
+                   "A .toile design, or a model: OBJ, PLY, STL, OFF, *.model.json, builtin:...")
+      ->required();
+  command
+      ->add_option("--body", arguments->body,
+                   "Show the design on this model instead of its own: a mesh file, a .model.json "
+                   "or builtin:...")
+      ->type_name("MODEL");
+  command->add_option("-o,--output", arguments->out, "The PNG to write")
+      ->type_name("PNG")
+      ->required();
+  RenderOptions& options = arguments->options;
+  command
+      ->add_option_function<std::vector<std::string>>(
+          "--view",
+          [&options](const std::vector<std::string>& texts) { readViews(texts, options.views); },
+          "Views side by side, with commas between: front, back, left, right, three-quarter, "
+          "three-quarter-back, top, or azimuth,elevation in degrees; none for the pieces alone "
+          "(default: front,back)")
+      ->allow_extra_args(false)
+      ->type_name("VIEWS");
+  command
+      ->add_option_function<std::string>(
+          "--size", [&options](const std::string& text) { readSize(text, options); },
+          "Width and height in px (default: 1600x1000)")
+      ->type_name("WxH");
+  addChoice<RenderStyle>(*command, "--style", options.style,
+                         {{"product", RenderStyle::Product}, {"plain", RenderStyle::Plain}},
+                         "The finished thing, or the design's lines on pale panels");
+  addChoice<RenderLines>(
+      *command, "--lines", options.lines,
+      {{"all", RenderLines::All}, {"seams", RenderLines::Seams}, {"none", RenderLines::None}},
+      "Which lines are drawn on the model");
+  addChoice<RenderPieces>(*command, "--pieces", options.pieces,
+                          {{"cloth", RenderPieces::Cloth},
+                           {"strain", RenderPieces::Strain},
+                           {"none", RenderPieces::None}},
+                          "The pieces beside it, in their colours or coloured by strain");
+  addParsed(*command, "--explode", options.explode, parseRatio,
+            "How far the pieces stand off the model, 0% to 200%")
+      ->type_name("PERCENT");
+  command->add_flag("!--no-captions", options.captions, "Leave out names of design and views");
+  command->add_flag("--auto-cut", arguments->autoCut,
+                    "Cut tubes open along the shortest way, so that they can lie flat");
+}
+
+}  // namespace toile::cli
