@@ -30,9 +30,8 @@ int countInflections(const std::vector<double>& turns, bool closed, double least
   };
   joinRound();
   while (!bends.empty()) {
-    const auto smallest =
-        std::min_element(bends.begin(), bends.end(),
-                         [](double a, double b) { return std::abs(a) < std::abs(b); });
+    const auto smallest = std::min_element(
+        bends.begin(), bends.end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
     if (std::abs(*smallest) >= least) break;
     bends.erase(smallest);
     std::vector<double> joined;

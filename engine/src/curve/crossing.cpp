@@ -130,8 +130,7 @@ class Finder {
     if (s * lengthA < kSameMeeting) return p;
     if ((1 - s) * lengthA < kSameMeeting) return p2;
     return makeSurfacePoint(
-        mesh_, face,
-        (1 - s) * barycentricIn(mesh_, p, face) + s * barycentricIn(mesh_, p2, face));
+        mesh_, face, (1 - s) * barycentricIn(mesh_, p, face) + s * barycentricIn(mesh_, p2, face));
   }
 
   void add(double a, double b, const SurfacePoint& point) { found_.push_back({a, b, point}); }

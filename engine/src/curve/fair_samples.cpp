@@ -51,9 +51,8 @@ FairSamples::FairSamples(std::shared_ptr<const Mesh> mesh, const FairNetwork& ne
 void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
   const Mesh& mesh = *mesh_;
   const double all = length(mesh, line.path);
-  const double wanted =
-      std::max(all / kMostSamples,
-               std::min(all / kFewestSamples, kSpacingInEdges * mesh.meanEdgeLength()));
+  const double wanted = std::max(
+      all / kMostSamples, std::min(all / kFewestSamples, kSpacingInEdges * mesh.meanEdgeLength()));
   struct Mark {
     double arc;
     int node;
@@ -87,8 +86,8 @@ void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
   if (!line.path.closed) {
     FairSample last;
     last.node = marks.back().node;
-    last.point = last.node >= 0 ? nodes_[static_cast<std::size_t>(last.node)]
-                                : line.path.points.back();
+    last.point =
+        last.node >= 0 ? nodes_[static_cast<std::size_t>(last.node)] : line.path.points.back();
     sampled.samples.push_back(last);
   }
   const std::size_t n = sampled.samples.size();
@@ -98,8 +97,8 @@ void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
     sample.start = sample.position = position(mesh, sample.point);
     if (sample.node >= 0 || line.isFixed) continue;
     if (!line.path.closed) {
-      const bool atStart = i == 0 || (i == 1 && sampled.samples[0].node < 0 &&
-                                      line.start == FairEnd::Clamped);
+      const bool atStart =
+          i == 0 || (i == 1 && sampled.samples[0].node < 0 && line.start == FairEnd::Clamped);
       const bool atEnd = i + 1 == n || (i + 2 == n && sampled.samples[n - 1].node < 0 &&
                                         line.end == FairEnd::Clamped);
       if (atStart || atEnd) continue;
@@ -220,8 +219,8 @@ void FairSamples::move(const Eigen::VectorXd& unknowns) {
     const int first = unknownOfNode_[i];
     if (first < 0) continue;
     Frame& frame = frameOfNode_[i];
-    const Vector3d place = position(*mesh_, nodes_[i]) + unknowns[first] * frame.a +
-                           unknowns[first + 1] * frame.b;
+    const Vector3d place =
+        position(*mesh_, nodes_[i]) + unknowns[first] * frame.a + unknowns[first + 1] * frame.b;
     nodes_[i] = closest_.find(place, nodes_[i]);
     const Vector3d normal = smoothNormal(*mesh_, nodes_[i]);
     frame.a = normal.unitOrthogonal();

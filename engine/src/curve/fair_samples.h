@@ -15,8 +15,8 @@ struct FairSample {
   Eigen::Vector3d start{0, 0, 0};     ///< where it was at first
   Eigen::Vector3d position{0, 0, 0};  ///< where it is
   Eigen::Vector3d side{1, 0, 0};      ///< unit, in the surface, to the left of the line
-  int node = -1;             ///< index of a node; then position and point are the node's
-  int unknown = -1;          ///< index of its sideways motion; -1: moves with its node or not at all
+  int node = -1;                      ///< index of a node; then position and point are the node's
+  int unknown = -1;  ///< index of its sideways motion; -1: moves with its node or not at all
 };
 
 struct FairSampledLine {

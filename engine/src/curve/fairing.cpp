@@ -24,7 +24,7 @@ using Eigen::VectorXd;
 constexpr double kShortestInSamples = 4;
 constexpr double kLadderFactor = 1.3;
 constexpr int kMaxRungs = 24;
-constexpr int kSteps = 4;     ///< Gauss-Newton steps on the surface
+constexpr int kSteps = 4;      ///< Gauss-Newton steps on the surface
 constexpr int kAttempts = 12;  ///< with other wavelengths: a line bends too often, or moved too far
 constexpr double kLeastBend = std::numbers::pi / 60;  ///< that counts as one: 3 degrees
 
@@ -134,9 +134,8 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
     for (std::size_t k = 0; !network.lines[l].inflections && k < rungs.size(); ++k) {
       if (k == 0 || rungOf(l, static_cast<int>(k)) <= half) wanted = rungs[k].inflections;
     }
-    const auto found = std::find_if(rungs.begin(), rungs.end(), [&](const Rung& rung) {
-      return rung.inflections <= wanted;
-    });
+    const auto found = std::find_if(rungs.begin(), rungs.end(),
+                                    [&](const Rung& rung) { return rung.inflections <= wanted; });
     const int best =
         std::max(0, static_cast<int>(found - rungs.begin()) - (found == rungs.end() ? 1 : 0));
     chosen[l] = rungOf(l, best);

@@ -51,8 +51,7 @@ std::vector<Vector2d> fitControls(const std::vector<Vector2d>& points, std::size
   const auto fineCount = static_cast<double>(spans * kFine);
   for (std::size_t i = 0; i < m; ++i) {
     const double u = fineCount * static_cast<double>(i) / static_cast<double>(closed ? m : m - 1);
-    const auto cell = static_cast<std::size_t>(
-        std::clamp(std::floor(u), 0.0, fineCount - 1));
+    const auto cell = static_cast<std::size_t>(std::clamp(std::floor(u), 0.0, fineCount - 1));
     const double t = u - static_cast<double>(cell);
     const auto a = static_cast<Eigen::Index>(cell);
     const Eigen::Index b = closed ? (a + 1) % basis.rows() : a + 1;
@@ -92,9 +91,9 @@ double deviation(const std::vector<Vector2d>& points, const std::vector<Vector2d
   double greatest = 0;
   for (std::size_t i = 0; i < points.size(); ++i) {
     // Parameters agree about: the nearest segment lies within a span or two.
-    const auto guess = static_cast<std::size_t>(
-        static_cast<double>(segments) * static_cast<double>(i) /
-        static_cast<double>(closed ? points.size() : points.size() - 1));
+    const auto guess =
+        static_cast<std::size_t>(static_cast<double>(segments) * static_cast<double>(i) /
+                                 static_cast<double>(closed ? points.size() : points.size() - 1));
     const std::size_t window = 2 * kFine + segments / 16;
     const std::size_t from = guess > window ? guess - window : 0;
     double nearest = std::numeric_limits<double>::infinity();
@@ -163,10 +162,10 @@ std::vector<Vector2d> fitPart(const std::vector<Vector2d>& points, bool closed, 
 
 Result<FittedStroke> fitStroke(std::span<const StrokeSample> stroke, const StrokeOptions& options) {
   if (!(options.tolerance > 0) || !std::isfinite(options.tolerance)) {
-    return Error{ErrorCode::InvalidArgument,
-                 fmt::format("the tolerance of a stroke must be positive, not {} mm",
-                             options.tolerance),
-                 {}};
+    return Error{
+        ErrorCode::InvalidArgument,
+        fmt::format("the tolerance of a stroke must be positive, not {} mm", options.tolerance),
+        {}};
   }
   if (stroke.size() > kMaxStrokeSamples) {
     return Error{ErrorCode::InvalidArgument,
@@ -205,8 +204,8 @@ Result<FittedStroke> fitStroke(std::span<const StrokeSample> stroke, const Strok
   if (!row.closed) ends.push_back(n - 1);
   if (ends.empty()) {
     fitted.controls = fitPart(row.points, true, false, false, options.tolerance);
-    fitted.deviation = deviation(row.points, fitted.controls, true,
-                                 std::numeric_limits<double>::infinity());
+    fitted.deviation =
+        deviation(row.points, fitted.controls, true, std::numeric_limits<double>::infinity());
     return fitted;
   }
   for (std::size_t e = 0; e + 1 < ends.size(); ++e) {
@@ -216,9 +215,8 @@ Result<FittedStroke> fitStroke(std::span<const StrokeSample> stroke, const Strok
     const bool endsAtCorner = row.closed || e + 2 < ends.size();
     const std::vector<Vector2d> part =
         fitPart(points, false, startsAtCorner, endsAtCorner, options.tolerance);
-    fitted.deviation =
-        std::max(fitted.deviation,
-                 deviation(points, part, false, std::numeric_limits<double>::infinity()));
+    fitted.deviation = std::max(
+        fitted.deviation, deviation(points, part, false, std::numeric_limits<double>::infinity()));
     if (startsAtCorner) fitted.corners.push_back(fitted.controls.size() - (e > 0 ? 1 : 0));
     fitted.controls.insert(fitted.controls.end(), part.begin() + (e > 0 ? 1 : 0), part.end());
   }

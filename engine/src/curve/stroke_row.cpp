@@ -130,7 +130,8 @@ StrokeRow makeStrokeRow(std::span<const StrokeSample> all, const StrokeOptions& 
     std::vector<double> speeds;
     for (std::size_t i = 0; i <= count; ++i) {
       const std::size_t a = i > 1 ? i - 2 : 0, b = std::min(i + 2, count);
-      speeds.push_back(row.step * static_cast<double>(b - a) / std::max(1e-9, timeAt[b] - timeAt[a]));
+      speeds.push_back(row.step * static_cast<double>(b - a) /
+                       std::max(1e-9, timeAt[b] - timeAt[a]));
     }
     const double usual = median(speeds);
     for (double& speed : speeds) speed /= usual;

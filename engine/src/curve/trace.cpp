@@ -59,9 +59,8 @@ std::optional<Heading> headingFrom(const Mesh& mesh, const SurfacePoint& from,
       if (weights[k] > 0) continue;
       // Distance gained from side k per step: the rate times the height over that side.
       const Triangle& t = mesh.vertices(face);
-      const double side =
-          mesh.length(mesh.findEdge(t[static_cast<std::size_t>((k + 1) % 3)],
-                                    t[static_cast<std::size_t>((k + 2) % 3)]));
+      const double side = mesh.length(mesh.findEdge(t[static_cast<std::size_t>((k + 1) % 3)],
+                                                    t[static_cast<std::size_t>((k + 2) % 3)]));
       inward = std::min(inward, rates[k] * 2 * mesh.area(face) / side);
     }
     const double score = std::min(inward, 1.0);

@@ -94,9 +94,8 @@ const SurfacePoint& SurfaceTracker::moveUnder(const Ray& ray) {
                                               ray.direction.squaredNorm()),
                       ray.direction};
     for (int round = 0; round < kMaxRounds; ++round) {
-      const SurfacePoint next =
-          s.local.find(closestOnRay(goal == end ? ray : between, position(*s.mesh, s.at)), s.at,
-                       ball);
+      const SurfacePoint next = s.local.find(
+          closestOnRay(goal == end ? ray : between, position(*s.mesh, s.at)), s.at, ball);
       if (next == s.at) break;
       s.at = next;
     }

@@ -71,16 +71,19 @@ TEST(Meetings, OfTwoLinesOnAGrid) {
   const SurfaceIndex index(mesh);
   GeodesicLinker linker(mesh);
   const auto line = [&](double x0, double y0, double x1, double y1) {
-    return *linker.link(index.closestPoint({x0, y0, 0}).point, index.closestPoint({x1, y1, 0}).point);
+    return *linker.link(index.closestPoint({x0, y0, 0}).point,
+                        index.closestPoint({x1, y1, 0}).point);
   };
   const SurfacePath a = line(10, 95, 190, 115), b = line(60, 12, 130, 190);
   const auto meetings = findMeetings(*mesh, a, b);
   ASSERT_EQ(meetings.size(), 1U);
   EXPECT_LT((position(*mesh, meetings[0].point) -
-             position(*mesh, pointAtFraction(*mesh, a, meetings[0].a / length(*mesh, a)))).norm(),
+             position(*mesh, pointAtFraction(*mesh, a, meetings[0].a / length(*mesh, a))))
+                .norm(),
             1e-9);
   EXPECT_LT((position(*mesh, meetings[0].point) -
-             position(*mesh, pointAtFraction(*mesh, b, meetings[0].b / length(*mesh, b)))).norm(),
+             position(*mesh, pointAtFraction(*mesh, b, meetings[0].b / length(*mesh, b))))
+                .norm(),
             1e-9);
   EXPECT_TRUE(findMeetings(*mesh, a, line(10, 20, 190, 30)).empty());
   EXPECT_TRUE(findSelfMeetings(*mesh, a).empty());
@@ -95,7 +98,8 @@ TEST(Meetings, OfTwoLinesOnAGrid) {
   std::vector<SurfacePoint> eight;
   for (int i = 0; i < 40; ++i) {
     const double t = 2 * pi * i / 40 + 0.1;
-    eight.push_back(index.closestPoint({100 + 80 * std::sin(t), 100 + 60 * std::sin(2 * t), 0}).point);
+    eight.push_back(
+        index.closestPoint({100 + 80 * std::sin(t), 100 + 60 * std::sin(2 * t), 0}).point);
   }
   EXPECT_EQ(findSelfMeetings(*mesh, *linker.linkAll(eight, true)).size(), 1U);
 }
@@ -120,9 +124,10 @@ TEST(Curvature, OfCirclesOnAPlaneAndABall) {
   std::vector<SurfacePoint> parallel;
   for (int i = 0; i < 60; ++i) {
     const double t = 2 * pi * i / 60;
-    parallel.push_back(ballIndex.closestPoint(100 * Vector3d(std::cos(b) * std::cos(t),
-                                                             std::cos(b) * std::sin(t),
-                                                             std::sin(b))).point);
+    parallel.push_back(ballIndex
+                           .closestPoint(100 * Vector3d(std::cos(b) * std::cos(t),
+                                                        std::cos(b) * std::sin(t), std::sin(b)))
+                           .point);
   }
   double mean = 0;
   for (const CurvatureSample& s : sampleCurvature(*ball, *ballLinker.linkAll(parallel, true), 60)) {

@@ -21,9 +21,7 @@ using std::numbers::pi;
 std::vector<StrokeSample> drawn(const std::vector<Vector2d>& corners, double trembling,
                                 bool withTime = false, double spacing = 2) {
   std::mt19937 random(7);
-  const auto noise = [&] {
-    return trembling * (static_cast<double>(random()) / 2147483648.0 - 1);
-  };
+  const auto noise = [&] { return trembling * (static_cast<double>(random()) / 2147483648.0 - 1); };
   std::vector<StrokeSample> stroke;
   double time = 0;
   for (std::size_t i = 0; i + 1 < corners.size(); ++i) {
@@ -62,7 +60,8 @@ TEST(Stroke, TakesTheTremblingOutOfAStraightLine) {
 
 TEST(Stroke, DrawsAnArcOfFewControls) {
   std::vector<Vector2d> arc;
-  for (int i = 0; i <= 200; ++i) arc.push_back(150 * Vector2d(std::cos(pi * i / 200), std::sin(pi * i / 200)));
+  for (int i = 0; i <= 200; ++i)
+    arc.push_back(150 * Vector2d(std::cos(pi * i / 200), std::sin(pi * i / 200)));
   const auto fitted = fitStroke(drawn(arc, 1.5), {.tolerance = 5, .closed = {}});
   ASSERT_TRUE(fitted) << fitted.error();
   EXPECT_LE(fitted->controls.size(), 7U);
