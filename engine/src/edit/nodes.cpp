@@ -21,8 +21,8 @@ std::vector<bool> sharedData(const Sketch& sketch, const std::string& id, const 
     const ModelPoint point = toModelPoint(sketch.mesh(), curve.data[i]);
     for (const StylingCurve& other : sketch.design().curves) {
       if (other.id == id) continue;
-      shared[i] = shared[i] || std::find(other.dataPoints.begin(), other.dataPoints.end(),
-                                         point) != other.dataPoints.end();
+      shared[i] = shared[i] || std::find(other.dataPoints.begin(), other.dataPoints.end(), point) !=
+                                   other.dataPoints.end();
     }
   }
   return shared;
@@ -33,8 +33,8 @@ std::vector<bool> sharedData(const Sketch& sketch, const std::string& id, const 
 std::vector<Knot> knotsAround(const WorkCurve& curve, std::size_t data, const SurfacePoint& to,
                               const std::vector<bool>& isHeld) {
   const std::size_t n = curve.data.size();
-  const auto reach = static_cast<std::size_t>(
-      std::max(1.0, std::ceil(kCarriedPart * static_cast<double>(n))));
+  const auto reach =
+      static_cast<std::size_t>(std::max(1.0, std::ceil(kCarriedPart * static_cast<double>(n))));
   std::size_t first = data, last = data;
   while (first > 0 && data - first < reach) {
     --first;
@@ -101,8 +101,7 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
       std::optional<PathMeeting> nearest;
       double least = std::numeric_limits<double>::infinity();
       for (const PathMeeting& meeting : findMeetings(mesh, path, otherPath)) {
-        const double distance =
-            (position(mesh, meeting.point) - position(mesh, node.from)).norm();
+        const double distance = (position(mesh, meeting.point) - position(mesh, node.from)).norm();
         if (distance < least) {
           least = distance;
           nearest = meeting;

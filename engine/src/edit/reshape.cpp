@@ -51,7 +51,8 @@ Result<Reshaper::Reshaped> Reshaper::reshape(const WorkCurve& old, const std::ve
     samples.push_back({arcs[i], old.data[i], static_cast<std::ptrdiff_t>(i)});
     if (i == end) break;
     const Vector3d a = displacement.at(arcs[i]), b = displacement.at(arcs[i + 1]);
-    const double gap = (position(mesh, old.data[i + 1]) + b - position(mesh, old.data[i]) - a).norm();
+    const double gap =
+        (position(mesh, old.data[i + 1]) + b - position(mesh, old.data[i]) - a).norm();
     const double before = arcs[i + 1] - arcs[i];
     if ((b - a).norm() < kUnmoved && a.norm() < kUnmoved) continue;
     if (gap <= widest || (gap <= kWideGap * before && before <= widest)) continue;
@@ -78,10 +79,10 @@ Result<Reshaper::Reshaped> Reshaper::reshape(const WorkCurve& old, const std::ve
   std::optional<SurfacePath> guide;  // between the knots around the sample, if it is needed
   std::ptrdiff_t previousUnmoved = -2;
   for (const Sample& sample : samples) {
-    const bool isKnot = sample.data >= 0 && static_cast<std::size_t>(sample.data) == knots[knot].data;
+    const bool isKnot =
+        sample.data >= 0 && static_cast<std::size_t>(sample.data) == knots[knot].data;
     const Vector3d move = isKnot ? moves[knot] : displacement.at(sample.arc);
-    const bool isUnmoved =
-        sample.data >= 0 && (isKnot ? !knots[knot].to : move.norm() < kUnmoved);
+    const bool isUnmoved = sample.data >= 0 && (isKnot ? !knots[knot].to : move.norm() < kUnmoved);
     const Vector3d place = position(mesh, sample.old) + move;
     SurfacePoint point = sample.old;
     if (isKnot && knots[knot].to) point = *knots[knot].to;
@@ -91,9 +92,11 @@ Result<Reshaper::Reshaped> Reshaper::reshape(const WorkCurve& old, const std::ve
     if (!made.data.empty() && made.links.size() < made.data.size()) {
       const SurfacePoint previous = made.data.back();
       const auto isSame = [&](const SurfacePoint& p) {
-        return p == previous || (position(mesh, p) - position(mesh, previous)).norm() < kSameDataPoint;
+        return p == previous ||
+               (position(mesh, p) - position(mesh, previous)).norm() < kSameDataPoint;
       };
-      const bool wasLinked = isUnmoved && previousUnmoved >= 0 && sample.data == previousUnmoved + 1;
+      const bool wasLinked =
+          isUnmoved && previousUnmoved >= 0 && sample.data == previousUnmoved + 1;
       if (wasLinked) {
         link = old.links[static_cast<std::size_t>(previousUnmoved)];
       } else if (!isSame(point)) {

@@ -68,10 +68,9 @@ Result<Grip> take(const Mesh& mesh, WorkCurve curve, const Stretch& stretch) {
     const double on = curve.closed ? arc - all * std::floor(arc / all) : arc;
     const std::vector<double> arcs = detail::arcsOf(mesh, curve);
     const std::size_t n = curve.data.size(), count = curve.linkCount();
-    const auto above = std::upper_bound(arcs.begin() + 1,
-                                        arcs.begin() + static_cast<std::ptrdiff_t>(count),
-                                        on + (outwardIsBack ? detail::kSameDataPoint
-                                                            : -detail::kSameDataPoint));
+    const auto above =
+        std::upper_bound(arcs.begin() + 1, arcs.begin() + static_cast<std::ptrdiff_t>(count),
+                         on + (outwardIsBack ? detail::kSameDataPoint : -detail::kSameDataPoint));
     const auto link = static_cast<std::size_t>(above - arcs.begin()) - 1;
     const std::size_t outer = outwardIsBack ? link : link + 1;
     if (std::abs(arcs[outer] - on) <= kSnapPart * size) return outer % n;
@@ -122,9 +121,8 @@ Result<Grip> take(const Mesh& mesh, WorkCurve curve, const Stretch& stretch) {
       if (isRing && k == count) continue;  // the start of the ring is its last handle
       // An even sample takes a data point that is there, if it lies near.
       arcs = detail::arcsOf(mesh, curve);
-      const auto next = std::lower_bound(arcs.begin(), arcs.begin() + static_cast<std::ptrdiff_t>(
-                                                                         curve.linkCount()),
-                                         arc);
+      const auto next = std::lower_bound(
+          arcs.begin(), arcs.begin() + static_cast<std::ptrdiff_t>(curve.linkCount()), arc);
       auto at = static_cast<std::size_t>(next - arcs.begin());
       if (at > 0 && arc - arcs[at - 1] < arcs[at] - arc) --at;
       if (std::abs(arcs[at] - arc) > 0.1 * span / count || at <= grip.first || at >= grip.last) {
@@ -164,8 +162,8 @@ void openRing(Grip& grip, std::size_t& handle) {
   grip.last = n - 1;
   grip.handles.erase(std::remove(grip.handles.begin(), grip.handles.end(), std::size_t{0}),
                      grip.handles.end());
-  handle = static_cast<std::size_t>(
-      std::find(grip.handles.begin(), grip.handles.end(), now) - grip.handles.begin());
+  handle = static_cast<std::size_t>(std::find(grip.handles.begin(), grip.handles.end(), now) -
+                                    grip.handles.begin());
 }
 
 }  // namespace
@@ -330,8 +328,7 @@ Result<void> CurveDrag::moveUnder(const Ray& ray) {
   Result<SurfacePoint> image = detail::mirrored(state_->sketch.model(), state_->tracker.at());
   if (!image) return image.error();
   SurfaceTracker other(state_->sketch.model().mesh, *image);
-  const Result<SurfacePoint> back =
-      detail::mirrored(state_->sketch.model(), other.moveUnder(ray));
+  const Result<SurfacePoint> back = detail::mirrored(state_->sketch.model(), other.moveUnder(ray));
   if (!back) return back.error();
   state_->tracker.restart(*back);
   return state_->put(*back);
@@ -375,8 +372,7 @@ Result<Document> CurveDrag::document() const {
     WorkCurve rail = *s.rail;
     const SurfacePoint& end = s.made.curve.data[s.made.newIndex[s.grip.handles[s.handle]]];
     const SurfacePath path = detail::pathOf(rail);
-    const PathFoot foot =
-        nearestOnPath(sketch.mesh(), path, position(sketch.mesh(), end));
+    const PathFoot foot = nearestOnPath(sketch.mesh(), path, position(sketch.mesh(), end));
     const std::size_t at = detail::insertData(sketch.mesh(), rail, foot.arc);
     if (!(rail.data[at] == end)) {
       const bool isFirst = s.made.newIndex[s.grip.handles[s.handle]] == 0;
@@ -448,8 +444,8 @@ Result<Document> removeControl(const Document& document, const std::string& curv
     return Error{ErrorCode::CurveInvalid,
                  !nearest ? fmt::format("curve \"{}\" has no control point within {:.1f} mm there",
                                         curve, within.mm())
-                 : isEnd ? fmt::format("curve \"{}\" needs its end; trim it instead", curve)
-                         : fmt::format("curve \"{}\" is closed and needs 3 control points", curve),
+                 : isEnd  ? fmt::format("curve \"{}\" needs its end; trim it instead", curve)
+                          : fmt::format("curve \"{}\" is closed and needs 3 control points", curve),
                  {Element::curve(curve)}};
   }
   // Without the point, its place is that of the curve through the neighbouring controls.
@@ -478,7 +474,8 @@ Result<Document> removeControl(const Document& document, const std::string& curv
   const std::vector<double> now = detail::arcsOf(mesh, *work);
   const double t = (now[index] - now[*before]) / (now[*after] - now[*before]);
   const auto cell = static_cast<double>(std::size_t{8} * span) + 8 * t;
-  const auto low = static_cast<std::size_t>(std::floor(std::min(cell, static_cast<double>(fine.size() - 2))));
+  const auto low =
+      static_cast<std::size_t>(std::floor(std::min(cell, static_cast<double>(fine.size() - 2))));
   const double u = cell - static_cast<double>(low);
   SurfaceTracker tracker(sketch.model().mesh, work->data[index]);
   const SurfacePoint to = tracker.moveTo((1 - u) * fine[low] + u * fine[low + 1]);

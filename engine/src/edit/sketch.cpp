@@ -185,8 +185,8 @@ Result<std::string> Sketch::add(StylingCurve curve) {
                  {Element::curve(curve.id)}};
   }
   const bool isAllowed = std::all_of(curve.id.begin(), curve.id.end(), [](char c) {
-    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') ||
-           c == '_' || c == '-';
+    return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '_' ||
+           c == '-';
   });
   if (!isAllowed) {
     return Error{ErrorCode::InvalidArgument,

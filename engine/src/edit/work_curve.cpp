@@ -85,8 +85,8 @@ LinkPlace placeAt(const WorkCurve& curve, const std::vector<double>& arcs, doubl
   const double all = arcs[count];
   if (curve.closed) arc -= all * std::floor(arc / all);
   arc = std::clamp(arc, 0.0, all);
-  const auto above = std::upper_bound(arcs.begin() + 1,
-                                      arcs.begin() + static_cast<std::ptrdiff_t>(count), arc);
+  const auto above =
+      std::upper_bound(arcs.begin() + 1, arcs.begin() + static_cast<std::ptrdiff_t>(count), arc);
   const auto link = static_cast<std::size_t>(above - arcs.begin()) - 1;
   const double span = arcs[link + 1] - arcs[link];
   return {link, span > 0 ? std::clamp((arc - arcs[link]) / span, 0.0, 1.0) : 0.0};
