@@ -127,7 +127,8 @@ Result<Document> joinCurves(const Document& document, const std::string& first,
   // Hangers of both have moved; images of the second stay as they are.
   if (const Result<void> removed = sketch.remove(second); !removed) return removed.error();
   const Result<void> stored = detail::storeAndMove(sketch, first, *made, [&](double f) {
-    return std::optional<Sketch::Moved>({first, std::clamp((startA + f * lengthA) / all, 0.0, 1.0)});
+    return std::optional<Sketch::Moved>(
+        {first, std::clamp((startA + f * lengthA) / all, 0.0, 1.0)});
   });
   if (!stored) return stored.error();
   return sketch.document();
@@ -201,8 +202,8 @@ Result<Document> extendToCurve(const Document& document, const std::string& curv
   if (end == CurveEnd::Start) detail::reverse(*work);
   const double before = detail::arcsOf(mesh, *work)[work->linkCount()];
   const SurfacePath& last = work->links.back();
-  const Vector3d direction = position(mesh, last.points.back()) -
-                             position(mesh, last.points[last.points.size() - 2]);
+  const Vector3d direction =
+      position(mesh, last.points.back()) - position(mesh, last.points[last.points.size() - 2]);
   const auto trace = traceStraight(mesh, work->data.back(), direction, limit.mm());
   std::optional<PathMeeting> hit;
   if (trace) {

@@ -46,8 +46,8 @@ Result<Edited> offsetCurve(const Document& document, const std::string& curve, L
   std::size_t missing = 0;
   for (const CurvatureSample& sample : sampleCurvature(mesh, path, count)) {
     const Vector3d left = sample.normal.cross(sample.tangent);
-    const auto trace = traceStraight(mesh, sample.point, d > 0 ? left : Vector3d(-left),
-                                     std::abs(d));
+    const auto trace =
+        traceStraight(mesh, sample.point, d > 0 ? left : Vector3d(-left), std::abs(d));
     if (!trace || length(mesh, *trace) < std::abs(d) * (1 - 1e-9)) {
       ++missing;
       continue;
@@ -55,11 +55,10 @@ Result<Edited> offsetCurve(const Document& document, const std::string& curve, L
     const SurfacePoint& end = trace->points.back();
     const Vector3d place = position(mesh, end);
     // In a hollow bend the parallel turns back: those points lie nearer to another place.
-    const bool turnsBack = !points.empty() &&
-                           (place - lastPlace).dot(sample.position - lastFoot) <= 0;
-    const bool isTooNear =
-        nearestOnPath(mesh, path, place).distance <
-        (position(mesh, end) - sample.position).norm() * (1 - kTooNear);
+    const bool turnsBack =
+        !points.empty() && (place - lastPlace).dot(sample.position - lastFoot) <= 0;
+    const bool isTooNear = nearestOnPath(mesh, path, place).distance <
+                           (position(mesh, end) - sample.position).norm() * (1 - kTooNear);
     if (turnsBack || isTooNear) {
       ++missing;
       continue;
@@ -140,8 +139,8 @@ Result<Document> moveCurve(const Document& document, const std::string& curve,
   if (!made) return made.error().during("curve \"" + curve + "\"");
   std::size_t next = 0;
   for (std::size_t i = 0; i < work->data.size(); ++i) {
-    const auto found =
-        std::find(made->data.begin() + static_cast<std::ptrdiff_t>(next), made->data.end(), moved[i]);
+    const auto found = std::find(made->data.begin() + static_cast<std::ptrdiff_t>(next),
+                                 made->data.end(), moved[i]);
     if (found == made->data.end()) continue;
     next = static_cast<std::size_t>(found - made->data.begin());
     made->isControl[next] = work->isControl[i];
@@ -215,8 +214,8 @@ Result<Edited> shareCrossings(const Document& document, std::span<const std::str
         if (!(work[b].data[inB] == work[a].data[inA])) {
           work[b].data[inB] = work[a].data[inA];
           for (SurfacePath& link : work[b].links) {
-            if (!(link.points.front() == work[b].data[static_cast<std::size_t>(
-                                             &link - work[b].links.data())]) ||
+            if (!(link.points.front() ==
+                  work[b].data[static_cast<std::size_t>(&link - work[b].links.data())]) ||
                 !(link.points.back() ==
                   work[b].to(static_cast<std::size_t>(&link - work[b].links.data())))) {
               link.points.clear();

@@ -28,7 +28,8 @@ std::vector<KeptPart> partsBetween(std::vector<double> arcs, double all, bool cl
     const bool isAtEnd = !closed && (arc < kShortestPart || all - arc < kShortestPart);
     if (!isAtEnd && (cuts.empty() || arc - cuts.back() > kShortestPart)) cuts.push_back(arc);
   }
-  if (closed && cuts.size() > 1 && cuts.front() + all - cuts.back() < kShortestPart) cuts.pop_back();
+  if (closed && cuts.size() > 1 && cuts.front() + all - cuts.back() < kShortestPart)
+    cuts.pop_back();
   std::vector<KeptPart> parts;
   if (cuts.empty()) return parts;
   if (closed) {
@@ -75,8 +76,7 @@ Result<std::vector<double>> meetings(Sketch& sketch, const std::string& id,
     if (other == id) continue;
     Result<WorkCurve> theirs = sketch.load(other);
     if (!theirs) return theirs.error();
-    const auto found =
-        findMeetings(sketch.mesh(), detail::pathOf(*mine), detail::pathOf(*theirs));
+    const auto found = findMeetings(sketch.mesh(), detail::pathOf(*mine), detail::pathOf(*theirs));
     for (const PathMeeting& meeting : found) {
       arcs.push_back(meeting.a);
       detail::insertData(sketch.mesh(), *theirs, meeting.b);

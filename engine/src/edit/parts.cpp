@@ -16,11 +16,12 @@ Result<void> storeAndMove(Sketch& sketch, const std::string& id, const WorkCurve
                           const Sketch::Moving& moving) {
   if (const Result<void> moved = sketch.moveHangers(id, moving); !moved) return moved;
   for (const std::string& image : sketch.imagesOf(id)) {
-    if (const Result<void> moved = sketch.moveHangers(image, [&](double f) {
-          std::optional<Sketch::Moved> to = moving(f);
-          if (to) to->id = image;
-          return to;
-        });
+    if (const Result<void> moved = sketch.moveHangers(image,
+                                                      [&](double f) {
+                                                        std::optional<Sketch::Moved> to = moving(f);
+                                                        if (to) to->id = image;
+                                                        return to;
+                                                      });
         !moved) {
       return moved;
     }

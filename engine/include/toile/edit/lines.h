@@ -27,14 +27,14 @@ Result<Edited> eraseStretch(const Document& document, const std::string& curve,
 /// What hangs on the curve keeps its place, live mirror images stay as they are.
 Result<Document> removeCurve(const Document& document, const std::string& curve);
 
-/// Joins two open curves at their nearest ends into the first; a gap is bridged smoothly. The second
-/// is gone, and what hung on it hangs on the first.
+/// Joins two open curves at their nearest ends into the first; a gap is bridged smoothly. The
+/// second is gone, and what hung on it hangs on the first.
 Result<Document> joinCurves(const Document& document, const std::string& first,
                             const std::string& second);
 /// Joins the ends of a curve with each other.
 Result<Document> closeCurve(const Document& document, const std::string& curve);
-/// Continues a curve straight over the surface until it meets another, and ends it there. CurveInvalid
-/// when it does not meet it within `limit`.
+/// Continues a curve straight over the surface until it meets another, and ends it there.
+/// CurveInvalid when it does not meet it within `limit`.
 Result<Document> extendToCurve(const Document& document, const std::string& curve, CurveEnd end,
                                const std::string& other, Length limit = Length::mm(500));
 
