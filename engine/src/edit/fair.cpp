@@ -67,9 +67,8 @@ Result<FairedDocument> fairCurves(const Document& document, std::span<const std:
       const ModelPoint here = toModelPoint(mesh, loaded->data[i]);
       bool isShared = false, isHeld = options.keepCrossings;
       for (const StylingCurve& other : sketch.design().curves) {
-        if (other.id == id ||
-            std::find(other.dataPoints.begin(), other.dataPoints.end(), here) ==
-                other.dataPoints.end()) {
+        if (other.id == id || std::find(other.dataPoints.begin(), other.dataPoints.end(), here) ==
+                                  other.dataPoints.end()) {
           continue;
         }
         isShared = true;
@@ -103,9 +102,8 @@ Result<FairedDocument> fairCurves(const Document& document, std::span<const std:
     for (std::size_t i = 0; i < work[l].data.size(); ++i) {
       if (!work[l].isControl[i]) continue;
       const double arc = before[i] / all * now;
-      const auto next = std::lower_bound(after.begin(), after.begin() + static_cast<std::ptrdiff_t>(
-                                                                          made->data.size()),
-                                         arc);
+      const auto next = std::lower_bound(
+          after.begin(), after.begin() + static_cast<std::ptrdiff_t>(made->data.size()), arc);
       auto at = static_cast<std::size_t>(next - after.begin());
       if (at == made->data.size() || (at > 0 && arc - after[at - 1] < after[at] - arc)) --at;
       made->isControl[at] = true;

@@ -27,8 +27,8 @@ Result<SurfacePath> pathOf(Sketch& sketch, const std::string& id) {
 Vector3d directionAt(const Mesh& mesh, const SurfacePath& path, double arc) {
   const double all = length(mesh, path), reach = std::min(0.5, 0.01 * all);
   const auto at = [&](double s) {
-    return position(mesh, pointAtFraction(mesh, path,
-                                          path.closed ? s / all : std::clamp(s / all, 0.0, 1.0)));
+    return position(
+        mesh, pointAtFraction(mesh, path, path.closed ? s / all : std::clamp(s / all, 0.0, 1.0)));
   };
   return at(arc + reach) - at(arc - reach);
 }

@@ -28,7 +28,8 @@ MiddleLine::MiddleLine(const ReferenceModel& model) {
     const FaceId face(f);
     const Triangle& t = mesh.vertices(face);
     for (int k = 0; k < 3; ++k) {
-      const VertexId a = t[static_cast<std::size_t>(k)], b = t[static_cast<std::size_t>((k + 1) % 3)];
+      const VertexId a = t[static_cast<std::size_t>(k)],
+                     b = t[static_cast<std::size_t>((k + 1) % 3)];
       const VertexId c = t[static_cast<std::size_t>((k + 2) % 3)];
       if (partner[a] == a && partner[b] == b) {
         segments_.push_back({face, {a}, {b}});

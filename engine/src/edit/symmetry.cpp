@@ -155,7 +155,8 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
   constexpr int kSteps = 512;
   std::vector<double> sides;
   for (int i = 0; i <= kSteps; ++i) {
-    const SurfacePoint p = pointAtFraction(mesh, path, i == kSteps && path.closed ? 0 : i / double{kSteps});
+    const SurfacePoint p =
+        pointAtFraction(mesh, path, i == kSteps && path.closed ? 0 : i / double{kSteps});
     sides.push_back(sign * detail::sideOf(sketch.model(), p));
   }
   const int turns = path.closed ? 2 * kSteps : kSteps;
@@ -198,8 +199,8 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
   };
   // An open curve may also end on this side, away from the middle.
   const bool startsFree = !path.closed && bestFrom == 0;
-  const bool endsFree = !path.closed && bestTo >= kSteps - 1 &&
-                        sides[static_cast<std::size_t>(kSteps)] > touch;
+  const bool endsFree =
+      !path.closed && bestTo >= kSteps - 1 && sides[static_cast<std::size_t>(kSteps)] > touch;
   const double from = startsFree ? 0 : crossesAt(bestFrom, bestFrom - 1);
   const double to = endsFree ? all : crossesAt(bestTo, std::min(bestTo + 1, turns));
   if (startsFree && endsFree) {

@@ -7,8 +7,8 @@
 
 namespace toile {
 
-/// Mirror images of curves, by the model's symmetry (on bodies that are not symmetric themselves, by
-/// the pairing of their vertices): ids `..._l` become `..._r` and the other way, others get
+/// Mirror images of curves, by the model's symmetry (on bodies that are not symmetric themselves,
+/// by the pairing of their vertices): ids `..._l` become `..._r` and the other way, others get
 /// `-mirror`.
 /// @param linked the images follow every edit, and editing them edits the originals; otherwise they
 ///   are curves of their own.
