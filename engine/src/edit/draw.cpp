@@ -28,8 +28,8 @@ StylingCurve begun(const NewCurve& curve, CurveWay way, bool closed) {
   return made;
 }
 
-/// Adds a curve that is given by its way and puts it on the model; its data points are noted, unless
-/// it is to go on hanging on others.
+/// Adds a curve that is given by its way and puts it on the model; its data points are noted,
+/// unless it is to go on hanging on others.
 Result<Edited> addByWay(const Document& document, StylingCurve curve, bool keepsHanging = false) {
   Sketch sketch(document);
   const CurveWay way = curve.way;
@@ -49,9 +49,10 @@ Result<std::vector<Place>> placesOf(const Document& document,
   std::vector<Place> places;
   for (const SurfacePoint& point : points) {
     if (!isValid(*document.model->mesh, point)) {
-      return Error{ErrorCode::CurveInvalid,
-                   fmt::format("point {} of the curve does not lie on the model", places.size() + 1),
-                   {}};
+      return Error{
+          ErrorCode::CurveInvalid,
+          fmt::format("point {} of the curve does not lie on the model", places.size() + 1),
+          {}};
     }
     places.emplace_back(toModelPoint(*document.model->mesh, point));
   }
@@ -79,8 +80,7 @@ Result<std::vector<VertexId>> edgesTo(const Mesh& mesh, VertexId from, VertexId 
     if (next.cost > cost[next.vertex]) continue;
     for (const FaceId face : mesh.facesAround(next.vertex)) {
       for (const VertexId v : mesh.vertices(face)) {
-        const double through =
-            next.cost + (mesh.position(v) - mesh.position(next.vertex)).norm();
+        const double through = next.cost + (mesh.position(v) - mesh.position(next.vertex)).norm();
         if (v == next.vertex || through >= cost[v]) continue;
         cost[v] = through;
         previous[v] = next.vertex;
@@ -153,8 +153,7 @@ Result<Edited> drawAlongModelCurve(const Document& document, const std::string& 
   const auto found = document.model->curves.find(name);
   const bool isWhole = stretch.from == 0 && stretch.to == 1;
   const bool closed = found != document.model->curves.end() && found->second.closed && isWhole;
-  return addByWay(document,
-                  begun(curve, AlongModelCurve{name, stretch.from, stretch.to}, closed));
+  return addByWay(document, begun(curve, AlongModelCurve{name, stretch.from, stretch.to}, closed));
 }
 
 Result<Edited> drawAlongEdges(const Document& document, std::span<const VertexId> vertices,
@@ -163,9 +162,8 @@ Result<Edited> drawAlongEdges(const Document& document, std::span<const VertexId
   AlongVertices way;
   for (const VertexId v : vertices) {
     if (v.index() >= mesh.vertexCount()) {
-      return Error{ErrorCode::CurveInvalid,
-                   fmt::format("the model has no vertex {}", v.index()),
-                   {}};
+      return Error{
+          ErrorCode::CurveInvalid, fmt::format("the model has no vertex {}", v.index()), {}};
     }
     if (way.vertices.empty()) {
       way.vertices.push_back(v);

@@ -66,10 +66,10 @@ Result<Drawn> put(Sketch& sketch, const ViewWay& way, bool closed) {
     const bool isOutline = cut.reason == ViewCut::Reason::Silhouette;
     drawn.findings.push_back(
         {isOutline ? "cut-at-silhouette" : "cut-at-other-part",
-         fmt::format("the drawing {} at ({:.1f}, {:.1f}) mm in the view and was cut there",
-                     isOutline ? "crosses the outline of the model"
-                               : "passes to another part of the model",
-                     cut.where.x(), cut.where.y()),
+         fmt::format(
+             "the drawing {} at ({:.1f}, {:.1f}) mm in the view and was cut there",
+             isOutline ? "crosses the outline of the model" : "passes to another part of the model",
+             cut.where.x(), cut.where.y()),
          {}});
   }
   // A closed drawing that was cut: the last run goes on in the first.
@@ -272,8 +272,8 @@ Result<Edited> drawOver(const Document& document, const std::string& curve, cons
       knots.push_back({b, std::nullopt});
     }
     knots.push_back({end, work->data[last]});
-    Result<detail::Reshaper::Reshaped> fitted = reshaper.reshape(
-        *drawn, knots, detail::StretchEnd::Place, detail::StretchEnd::Place);
+    Result<detail::Reshaper::Reshaped> fitted =
+        reshaper.reshape(*drawn, knots, detail::StretchEnd::Place, detail::StretchEnd::Place);
     if (!fitted) return fitted.error();
     drawn = std::move(fitted->curve);
   } else {

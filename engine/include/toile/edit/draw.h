@@ -23,7 +23,8 @@ struct PencilOptions {
 /// A freehand stroke on the view becomes a curve (curve/stroke.h). Where it leaves the outline or
 /// passes to another limb it is cut: one curve for each run on the surface, and a finding
 /// "cut-at-silhouette" or "cut-at-other-part" that says where.
-/// @return LeavesSilhouette when nothing of it lies on the model; CurveInvalid for what is no stroke.
+/// @return LeavesSilhouette when nothing of it lies on the model; CurveInvalid for what is no
+/// stroke.
 Result<Edited> drawStroke(const Document& document, const View& view,
                           std::span<const StrokeSample> stroke, const NewCurve& curve = {},
                           const PencilOptions& options = {});
@@ -36,7 +37,8 @@ Result<Edited> continueStroke(const Document& document, const std::string& curve
 Result<Edited> drawOver(const Document& document, const std::string& curve, const View& view,
                         std::span<const StrokeSample> stroke, const PencilOptions& options = {});
 
-/// A curve by control points on the view plane (which may be moved there before). Cut as a stroke is.
+/// A curve by control points on the view plane (which may be moved there before). Cut as a stroke
+/// is.
 Result<Edited> drawInView(const Document& document, const ViewWay& way, bool closed,
                           const NewCurve& curve = {});
 /// A smooth curve through points of the surface; or the shortest way from each to the next.
