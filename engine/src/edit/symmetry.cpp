@@ -44,24 +44,27 @@ StylingCurve imageOf(const StylingCurve& original) {
   return image;
 }
 
-/// Draws the stretch before the end of a half anew, so that it meets its mirror image smoothly
-/// there: as if the image's points were its next control points.
-Result<void> squareEnd(Sketch& sketch, WorkCurve& half) {
+/// Draws the stretch before the end of a half anew, so that it meets its mirror image smoothly: the
+/// end slides along the middle line to where a symmetric arc from the stretch's start meets it, and
+/// the stretch runs as if the image's points were its next control points.
+Result<void> squareEnd(Sketch& sketch, const detail::MiddleLine& middle, WorkCurve& half) {
   const Mesh& mesh = sketch.mesh();
   const double all = detail::arcsOf(mesh, half)[half.linkCount()];
   const std::size_t from = detail::insertData(mesh, half, (1 - kJoinPart) * all);
-  const std::size_t middle = detail::insertData(mesh, half, (1 - kJoinPart / 2) * all);
-  const std::size_t end = half.data.size() - 1;
-  const double before = std::max(0.0, 1 - 1.5 * kJoinPart);
   const auto arcs = detail::arcsOf(mesh, half);
-  const SurfacePoint outer = detail::pointAtArc(mesh, half, arcs, before * all);
-  std::vector<Vector3d> row{position(mesh, outer), position(mesh, half.data[from]),
-                            position(mesh, half.data[middle]), position(mesh, half.data[end])};
-  for (const std::size_t i : {middle, from}) {
-    const Result<SurfacePoint> image = detail::mirrored(sketch.model(), half.data[i]);
+  const SurfacePoint outer =
+      detail::pointAtArc(mesh, half, arcs, std::max(0.0, 1 - 2 * kJoinPart) * all);
+  const Vector3d start = position(mesh, half.data[from]);
+  std::vector<Vector3d> row{position(mesh, outer), start, Vector3d::Zero()};
+  for (const SurfacePoint& point : {half.data[from], outer}) {
+    const Result<SurfacePoint> image = detail::mirrored(sketch.model(), point);
     if (!image) return image.error();
     row.push_back(position(mesh, *image));
   }
+  // A symmetric arc leaves the straight line half way to the level of the stretch's start.
+  const SurfacePoint end =
+      middle.nearest(mesh, 0.5 * position(mesh, half.data.back()) + 0.25 * (start + row[3]));
+  row[2] = position(mesh, end);
   const std::vector<Vector3d> fine = subdivide<3>(row, false);
   WorkCurve made;
   for (std::size_t i = 0; i <= from; ++i) {
@@ -69,15 +72,15 @@ Result<void> squareEnd(Sketch& sketch, WorkCurve& half) {
     if (i < from) made.links.push_back(half.links[i]);
   }
   SurfaceTracker tracker(sketch.model().mesh, half.data[from]);
-  for (std::size_t k = 9; k < 24; ++k) {  // spans from..middle and middle..end of the row
-    const SurfacePoint& point = k == 16 ? half.data[middle] : tracker.moveTo(fine[k]);
-    if (k == 16) tracker.restart(half.data[middle]);
+  for (std::size_t k = 9; k < 16; ++k) {
+    const SurfacePoint& point = tracker.moveTo(fine[k]);
     if ((position(mesh, point) - position(mesh, made.data.back())).norm() >
-        detail::kSameDataPoint) {
-      made.push(point, k == 16);
+            detail::kSameDataPoint &&
+        (position(mesh, point) - row[2]).norm() > detail::kSameDataPoint) {
+      made.push(point, false);
     }
   }
-  made.push(half.data[end], true);
+  made.push(end, true);
   half = std::move(made);
   return detail::linkAll(sketch.linker(), half);
 }
@@ -213,12 +216,7 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
   if (!ids) return ids.error();
   Result<WorkCurve> half = sketch.load(target->id);
   if (!half) return half.error();
-  const auto joinEnd = [&]() -> Result<void> {
-    half->data.back() = middle.nearest(mesh, position(mesh, half->data.back()));
-    half->links.back().points.clear();
-    if (const Result<void> linked = detail::linkAll(sketch.linker(), *half); !linked) return linked;
-    return squareEnd(sketch, *half);
-  };
+  const auto joinEnd = [&] { return squareEnd(sketch, middle, *half); };
   if (!endsFree) {
     if (const Result<void> done = joinEnd(); !done) return done.error();
   }

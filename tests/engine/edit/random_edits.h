@@ -129,8 +129,9 @@ class RandomEdits {
     if (!drag) return drag.error();
     Eigen::Vector3d place = position(*document.model->mesh, (*handles)[handle].point);
     for (int i = 0; i < 2; ++i) {
-      place += 0.04 * size_ *
-               Eigen::Vector3d(random_.number() - 0.5, random_.number() - 0.5, random_.number() - 0.5);
+      place +=
+          0.04 * size_ *
+          Eigen::Vector3d(random_.number() - 0.5, random_.number() - 0.5, random_.number() - 0.5);
       if (const Result<void> moved = drag->moveTo(place); !moved) return moved.error();
     }
     return drag->document();

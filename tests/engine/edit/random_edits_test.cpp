@@ -74,9 +74,11 @@ void expectSound(const Document& document, GeodesicLinker& linker, const std::st
     for (std::size_t d = 1; d < curve.dataPoints.size(); ++d) {
       std::size_t to = from + 1;
       while (to < curve.path.points.size() && !(curve.path.points[to] == curve.dataPoints[d])) ++to;
-      ASSERT_LT(to, curve.path.points.size()) << context << ": " << curve.id << " leaves out a point";
-      if (to > from + 1 && document.design->curves[static_cast<std::size_t>(&curve - placed->data())]
-                               .mirrorOf == std::nullopt) {
+      ASSERT_LT(to, curve.path.points.size())
+          << context << ": " << curve.id << " leaves out a point";
+      if (to > from + 1 &&
+          document.design->curves[static_cast<std::size_t>(&curve - placed->data())].mirrorOf ==
+              std::nullopt) {
         SurfacePath link;
         link.points.assign(curve.path.points.begin() + static_cast<std::ptrdiff_t>(from),
                            curve.path.points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
