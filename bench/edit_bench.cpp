@@ -48,8 +48,8 @@ Document body(benchmark::State& state, int splits) {
   if (!mesh) return {};
   Mesh fine = *mesh;
   for (int i = 0; i < splits; ++i) fine = splitInFour(fine);
-  known[splits] = {std::make_shared<const Design>(), std::make_shared<const ReferenceModel>(
-                                                         makeReferenceModel("body", fine))};
+  known[splits] = {std::make_shared<const Design>(),
+                   std::make_shared<const ReferenceModel>(makeReferenceModel("body", fine))};
   return known[splits];
 }
 
@@ -71,9 +71,11 @@ void BM_DragMove(benchmark::State& state) {
   for (auto _ : state) {
     const double t = 0.13 * ++i;
     const auto begin = std::chrono::steady_clock::now();
-    const Result<void> moved = drag->moveTo(from + 60 * Vector3d(0, 0.3 * std::cos(t), std::sin(t)));
+    const Result<void> moved =
+        drag->moveTo(from + 60 * Vector3d(0, 0.3 * std::cos(t), std::sin(t)));
     times.push_back(
-        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count());
+        std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin)
+            .count());
     if (!moved) return state.SkipWithError(moved.error().message.c_str());
   }
   std::sort(times.begin(), times.end());
@@ -89,8 +91,10 @@ void BM_StrokeToCurve(benchmark::State& state) {
   std::vector<StrokeSample> stroke;
   for (int i = 0; i < 500; ++i) {
     const double t = i / 499.0;
-    stroke.push_back({{-100 + 200 * t + std::sin(7.0 * i), 250 * std::sin(5 * t) + std::cos(9.0 * i)},
-                      0.004 * i, 1});
+    stroke.push_back(
+        {{-100 + 200 * t + std::sin(7.0 * i), 250 * std::sin(5 * t) + std::cos(9.0 * i)},
+         0.004 * i,
+         1});
   }
   const View view;
   for (auto _ : state) {
@@ -113,9 +117,9 @@ void BM_FairNetworkOf20(benchmark::State& state) {
       const double angle = i < 10 ? 2 * 3.14159265 * k / 16 : 2 * 3.14159265 * (i - 10) / 10;
       const double z = i < 10 ? 960 + 22 * i + wave : 950 + 16 * k;
       const double turned = i < 10 ? angle : angle + 0.03 * wave;
-      points.push_back(document.model->index
-                           ->closestPoint({130 * std::cos(turned), 100 * std::sin(turned), z})
-                           .point);
+      points.push_back(
+          document.model->index->closestPoint({130 * std::cos(turned), 100 * std::sin(turned), z})
+              .point);
     }
     const auto drawn = drawThrough(document, points, i < 10);
     if (!drawn) return state.SkipWithError(drawn.error().message.c_str());

@@ -108,11 +108,33 @@ std::size_t insertData(const Mesh& mesh, WorkCurve& curve, double arc) {
   const double span = arcs[place.link + 1] - arcs[place.link];
   if (place.along * span < kSameDataPoint) return place.link;
   if ((1 - place.along) * span < kSameDataPoint) return (place.link + 1) % curve.data.size();
+  // Parted by hand: subPath() leaves out segments without length at its ends, and with them the
+  // data point itself.
   const SurfacePath whole = curve.links[place.link];
-  const SurfacePath first = subPath(mesh, whole, 0, place.along);
-  SurfacePath second = subPath(mesh, whole, place.along, 1);
-  const SurfacePoint point = first.points.back();
-  second.points.front() = point;
+  const SurfacePoint point = pointAtFraction(mesh, whole, place.along);
+  std::size_t segment = 0;
+  double before = 0;
+  while (segment + 1 < whole.faceOfSegment.size()) {
+    before +=
+        (position(mesh, whole.points[segment + 1]) - position(mesh, whole.points[segment])).norm();
+    if (before > place.along * span) break;
+    ++segment;
+  }
+  while (segment > 0 && !touches(mesh, point, whole.faceOfSegment[segment])) --segment;
+  SurfacePath first, second;
+  const auto step = [](SurfacePath& path, const SurfacePoint& next, FaceId face) {
+    if (!path.points.empty() && path.points.back() == next) return;
+    if (!path.points.empty()) path.faceOfSegment.push_back(face);
+    path.points.push_back(next);
+  };
+  for (std::size_t i = 0; i <= segment; ++i) {
+    step(first, whole.points[i], i > 0 ? whole.faceOfSegment[i - 1] : FaceId());
+  }
+  step(first, point, whole.faceOfSegment[segment]);
+  step(second, point, FaceId());
+  for (std::size_t i = segment + 1; i < whole.points.size(); ++i) {
+    step(second, whole.points[i], whole.faceOfSegment[i - 1]);
+  }
   const auto at = static_cast<std::ptrdiff_t>(place.link);
   curve.links[place.link] = first;
   curve.links.insert(curve.links.begin() + at + 1, second);

@@ -91,7 +91,8 @@ TEST(Drag, LeavesTheRestBitForBitAndKeepsTangents) {
     arc += (position(mesh, path.points[i + 1]) - position(mesh, path.points[i])).norm();
   }
   const auto at = [&](double s) { return position(mesh, pointAtFraction(mesh, path, s / all)); };
-  const Vector3d in = (at(arc) - at(arc - 3)).normalized(), out = (at(arc + 3) - at(arc)).normalized();
+  const Vector3d in = (at(arc) - at(arc - 3)).normalized(),
+                 out = (at(arc + 3) - at(arc)).normalized();
   EXPECT_GT(in.dot(out), std::cos(0.15));
   // Back again is the old curve; not moving changes nothing at all.
   ASSERT_TRUE(drag->moveOnto((*handles)[0].point));
@@ -109,7 +110,8 @@ TEST(Drag, GivesEvenSamplesWhereThereAreNoControls) {
     EXPECT_GE(handles->size(), 4U);
     EXPECT_LE(handles->size(), 6U);
     for (std::size_t h = 0; h < handles->size(); ++h) {
-      const SurfacePoint to = near(document, placeOf(document, (*handles)[h].point) + Vector3d(0, 0, 25));
+      const SurfacePoint to =
+          near(document, placeOf(document, (*handles)[h].point) + Vector3d(0, 0, 25));
       const auto moved = moveHandle(girth->document, "girth", stretch, h, to);
       ASSERT_TRUE(moved) << moved.error();
       const SurfacePath path = pathOf(*moved, "girth");
@@ -121,7 +123,8 @@ TEST(Drag, GivesEvenSamplesWhereThereAreNoControls) {
 
 TEST(Network, CrossingsStaySharedWhenALineMoves) {
   const Document line = withLine(torso());
-  const Vector3d middle = placeOf(line, pointAtFraction(*line.model->mesh, pathOf(line, "line"), 0.45));
+  const Vector3d middle =
+      placeOf(line, pointAtFraction(*line.model->mesh, pathOf(line, "line"), 0.45));
   const auto ring = drawGirth(line, near(line, middle), {0, 0, 1}, {"ring", "", CurveKind::Seam});
   ASSERT_TRUE(ring) << ring.error();
   const auto shared = shareCrossings(ring->document);
@@ -137,8 +140,7 @@ TEST(Network, CrossingsStaySharedWhenALineMoves) {
   EXPECT_EQ(common(shared->document), 1U);
   const auto handles = handlesOf(shared->document, "line");
   ASSERT_TRUE(handles) << handles.error();
-  const SurfacePoint to =
-      near(line, placeOf(line, (*handles)[2].point) + Vector3d(30, 0, 5));
+  const SurfacePoint to = near(line, placeOf(line, (*handles)[2].point) + Vector3d(30, 0, 5));
   const auto moved = moveHandle(shared->document, "line", {}, 2, to);
   ASSERT_TRUE(moved) << moved.error();
   EXPECT_GE(common(*moved), 1U);
@@ -164,7 +166,9 @@ TEST(Mirror, OfTheMirrorIsTheOriginalAndLinksFollow) {
   ASSERT_EQ(original.size(), back.size());
   for (std::size_t i = 0; i < original.size(); ++i) {
     EXPECT_LT((placeOf(line, *toSurfacePoint(*line.model->mesh, original[i])) -
-               placeOf(line, *toSurfacePoint(*line.model->mesh, back[i]))).norm(), 1e-9);
+               placeOf(line, *toSurfacePoint(*line.model->mesh, back[i])))
+                  .norm(),
+              1e-9);
   }
   // Linked: dragging the image moves the original.
   const auto linked = mirrorCurves(line, one, true);
@@ -196,7 +200,8 @@ TEST(Mirror, HalvesJoinSmoothlyOnTheMiddle) {
   ASSERT_TRUE(drawn) << drawn.error();
   const auto made = makeSymmetric(drawn->document, "yoke", Side::Left);
   ASSERT_TRUE(made) << made.error();
-  const SurfacePath half = pathOf(made->document, "yoke"), other = pathOf(made->document, made->curves[1]);
+  const SurfacePath half = pathOf(made->document, "yoke"),
+                    other = pathOf(made->document, made->curves[1]);
   EXPECT_EQ(half.points.front(), other.points.front());
   EXPECT_NEAR(placeOf(document, half.points.front()).x(), 0, 1e-9);
   // Square to the middle within a few degrees over the first millimetres.
@@ -227,12 +232,15 @@ TEST(Lines, SplitJoinTrimExtendEraseAndOffset) {
   const SurfacePoint foot = pathOf(dart->document, dart->curves[0]).points.front();
   const auto split = splitCurve(dart->document, "line", std::vector<double>{0.5});
   ASSERT_TRUE(split) << split.error();
-  EXPECT_LT((placeOf(line, pathOf(split->document, dart->curves[0]).points.front()) -
-             placeOf(line, foot)).norm(), 1e-6);
+  EXPECT_LT(
+      (placeOf(line, pathOf(split->document, dart->curves[0]).points.front()) - placeOf(line, foot))
+          .norm(),
+      1e-6);
   const auto removed = removeCurve(dart->document, "line");
   ASSERT_TRUE(removed) << removed.error();
-  EXPECT_LT((placeOf(line, pathOf(*removed, dart->curves[0]).points.front()) -
-             placeOf(line, foot)).norm(), 1e-9);
+  EXPECT_LT((placeOf(line, pathOf(*removed, dart->curves[0]).points.front()) - placeOf(line, foot))
+                .norm(),
+            1e-9);
 
   const SurfacePoint at = pointAtFraction(*line.model->mesh, pathOf(line, "line"), 0.5);
   const auto ring = drawGirth(line, at, {0, 0, 1}, {"ring", "", CurveKind::Seam});
@@ -249,14 +257,16 @@ TEST(Lines, SplitJoinTrimExtendEraseAndOffset) {
 
   const auto beside = offsetCurve(line, "line", Length::mm(15));
   ASSERT_TRUE(beside) << beside.error();
-  const SurfacePath path = pathOf(line, "line"), parallel = pathOf(beside->document, beside->curves[0]);
+  const SurfacePath path = pathOf(line, "line"),
+                    parallel = pathOf(beside->document, beside->curves[0]);
   const Mesh& mesh = *line.model->mesh;
   for (int i = 1; i < 10; ++i) {
     const SurfacePoint p = pointAtFraction(mesh, parallel, i / 10.0);
     double nearest = 1e9;
     for (int k = 0; k <= 200; ++k) {
-      nearest = std::min(nearest, (position(mesh, pointAtFraction(mesh, path, k / 200.0)) -
-                                   position(mesh, p)).norm());
+      nearest = std::min(
+          nearest,
+          (position(mesh, pointAtFraction(mesh, path, k / 200.0)) - position(mesh, p)).norm());
     }
     EXPECT_NEAR(nearest, 15, 0.6);
   }
@@ -268,7 +278,8 @@ TEST(Pencil, IsCutAtTheSilhouetteAndSaysSo) {
   view.eye = {0, -3000, 1000};
   view.target = {0, 0, 1000};
   std::vector<StrokeSample> stroke;
-  for (int i = 0; i <= 200; ++i) stroke.push_back({{-60.0 + 3 * i, 20 * std::sin(0.03 * i)}, 0.01 * i, 1});
+  for (int i = 0; i <= 200; ++i)
+    stroke.push_back({{-60.0 + 3 * i, 20 * std::sin(0.03 * i)}, 0.01 * i, 1});
   const auto drawn = drawStroke(document, view, stroke);
   ASSERT_TRUE(drawn) << drawn.error();
   ASSERT_EQ(drawn->curves.size(), 1U);
@@ -325,7 +336,8 @@ TEST(Edit, RefusesWhatCannotBeDone) {
   EXPECT_TRUE(tortuous) << tortuous.error();
   // Through one face again and again.
   const FaceId face = std::get<SurfacePoint::InFace>(
-                          makeSurfacePoint(*document.model->mesh, FaceId(500), {1, 1, 1}).at).face;
+                          makeSurfacePoint(*document.model->mesh, FaceId(500), {1, 1, 1}).at)
+                          .face;
   std::vector<SurfacePoint> zigzag;
   for (int i = 0; i < 20; ++i) {
     zigzag.push_back(makeSurfacePoint(*document.model->mesh, face,
@@ -345,16 +357,24 @@ TEST(Drag, StaysOnItsLimbOnABody) {
                           std::make_shared<const ReferenceModel>(*model)};
   struct Recorded {
     const char* name;
-    Vector3d start, normal;            ///< of the girth that is pulled
-    std::vector<Vector3d> way;         ///< of the cursor, relative to the handle
-    double leastX, mostX;              ///< where the limb is
+    Vector3d start, normal;     ///< of the girth that is pulled
+    std::vector<Vector3d> way;  ///< of the cursor, relative to the handle
+    double leastX, mostX;       ///< where the limb is
   };
   // The left leg stands at x > 0; between the legs x = 0. The left arm is beyond the torso.
   const std::vector<Recorded> paths{
-      {"between the thighs", {90, -300, 650}, {0, 0, 1},
-       {{-40, 0, 0}, {-90, 10, 0}, {-150, 30, 10}, {-220, 20, 0}}, 0, 400},
-      {"behind the thigh", {90, 300, 600}, {0, 0, 1},
-       {{-60, 10, 20}, {-140, 0, 20}, {-260, -10, 0}}, 0, 400},
+      {"between the thighs",
+       {90, -300, 650},
+       {0, 0, 1},
+       {{-40, 0, 0}, {-90, 10, 0}, {-150, 30, 10}, {-220, 20, 0}},
+       0,
+       400},
+      {"behind the thigh",
+       {90, 300, 600},
+       {0, 0, 1},
+       {{-60, 10, 20}, {-140, 0, 20}, {-260, -10, 0}},
+       0,
+       400},
   };
   for (const Recorded& recorded : paths) {
     const SurfacePoint start = near(document, recorded.start);
