@@ -124,8 +124,7 @@ int makeTable(const BodyArguments& arguments, const Session& session) {
     for (char& c : file) {
       if (c == '/' || c == '\\' || c == ':' || static_cast<unsigned char>(c) < 32) c = '-';
     }
-    const Result<MadeBody> body =
-        makeOne(size.name, size.options, arguments.out / (file + ".ply"));
+    const Result<MadeBody> body = makeOne(size.name, size.options, arguments.out / (file + ".ply"));
     if (!body) return fail(body.error().during("size " + size.name));
     made.push_back(*body);
   }
@@ -159,9 +158,8 @@ int runBody(const BodyArguments& arguments, const Session& session) {
 
 void addBody(CLI::App& app, Session& session) {
   auto arguments = std::make_shared<BodyArguments>();
-  CLI::App* command =
-      addCommand(app, session, "body", "Make a body from measurements or a size",
-                 [arguments, &session] { return runBody(*arguments, session); });
+  CLI::App* command = addCommand(app, session, "body", "Make a body from measurements or a size",
+                                 [arguments, &session] { return runBody(*arguments, session); });
   const auto addWord = [&](const std::string& name, const std::string& help,
                            const std::string& type) {
     command

@@ -52,13 +52,14 @@ Result<Wish> readWish(const BodyOptions& options) {
   wish.form.masculine = options.masculine;
   for (const auto& [measure, length] : options.measures) wish.given[measure] = length.mm();
   const auto [height, isStandard] = wish.given.emplace(
-      BodyMeasure::Height, kStandardHeightFemale + (kStandardHeightMale - kStandardHeightFemale) *
-                                                       options.masculine);
+      BodyMeasure::Height,
+      kStandardHeightFemale + (kStandardHeightMale - kStandardHeightFemale) * options.masculine);
   if (!(height->second >= kLeastHeight && height->second <= kMostHeight)) {
     const double nearest = height->second > kMostHeight ? kMostHeight : kLeastHeight;
-    return refusal(fmt::format("height {:.0f} mm is not possible: it must be from {:.0f} to {:.0f} "
-                               "mm; nearest: {:.0f} mm",
-                               height->second, kLeastHeight, kMostHeight, nearest));
+    return refusal(
+        fmt::format("height {:.0f} mm is not possible: it must be from {:.0f} to {:.0f} "
+                    "mm; nearest: {:.0f} mm",
+                    height->second, kLeastHeight, kMostHeight, nearest));
   }
   // A small body is a child's unless said otherwise.
   wish.form.childlike =
@@ -107,8 +108,7 @@ Result<Posture> parsePosture(std::string_view text) {
 Result<std::vector<BodyRange>> bodyRanges(const BodyOptions& options) {
   const Result<Wish> wish = readWish(options);
   if (!wish) return wish.error();
-  const Measures standard =
-      body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
+  const Measures standard = body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
   std::vector<BodyRange> ranges;
   for (const BodyMeasureInfo& info : bodyMeasures()) {
     ranges.push_back(rangeOf(info.measure, standard, wish->given));
@@ -119,8 +119,7 @@ Result<std::vector<BodyRange>> bodyRanges(const BodyOptions& options) {
 Result<ReferenceModel> makeBody(const BodyOptions& options) {
   const Result<Wish> wish = readWish(options);
   if (!wish) return wish.error();
-  const Measures standard =
-      body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
+  const Measures standard = body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
   for (const auto& [measure, value] : wish->given) {
     const BodyRange range = rangeOf(measure, standard, wish->given);
     if (value >= range.least.mm() && value <= range.most.mm()) continue;
@@ -140,8 +139,8 @@ Result<ReferenceModel> makeBody(const BodyOptions& options) {
   }
   const Mesh& connectivity = *body::bodyTemplate().mesh;
   ReferenceModel model = makeReferenceModel(
-      "body", connectivity.withPositions(
-                  body::inPosture(body::meshPositions(*cage), options.posture)));
+      "body",
+      connectivity.withPositions(body::inPosture(body::meshPositions(*cage), options.posture)));
   model.curves = body::bodyTemplate().curves;
   model.landmarks = body::bodyTemplate().landmarks;
   model.symmetry = body::bodyTemplate().symmetry;

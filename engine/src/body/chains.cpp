@@ -99,8 +99,8 @@ std::map<std::string, Chain> makeChains() {
     }
     return corners;
   };
-  chains["side_l"] = refined(
-      joined(columnDown(kSideColumn, kArmpitRow, kSplitRow), legLine(kLegOuter, 1)), false);
+  chains["side_l"] =
+      refined(joined(columnDown(kSideColumn, kArmpitRow, kSplitRow), legLine(kLegOuter, 1)), false);
   chains["inseam_l"] = refined(legLine(kLegInner, 0), false);
   const auto armLine = [&](std::size_t spoke) {
     std::vector<NetVertex> corners;

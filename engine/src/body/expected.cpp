@@ -92,7 +92,8 @@ Measures expectedMeasures(const Measures& standard, const std::map<BodyMeasure, 
   Eigen::MatrixXd among(count, count);
   for (Eigen::Index i = 0; i < count; ++i) {
     for (Eigen::Index j = 0; j < count; ++j) {
-      among(i, j) = covariance(known[static_cast<std::size_t>(i)], known[static_cast<std::size_t>(j)]);
+      among(i, j) =
+          covariance(known[static_cast<std::size_t>(i)], known[static_cast<std::size_t>(j)]);
     }
   }
   Eigen::VectorXd weights(count);

@@ -31,9 +31,9 @@ double powSigned(double x, double p) {
 /// A level ring of the trunk.
 struct TrunkRing {
   double z;
-  double width;       ///< half of it
-  double widestY;     ///< y of the widest place
-  double front, back; ///< y
+  double width;                    ///< half of it
+  double widestY;                  ///< y of the widest place
+  double front, back;              ///< y
   double squareFront, squareBack;  ///< exponent of the superellipse, 2 = ellipse
   double frontGroove, backGroove;  ///< how far the centre line lies in
 };
@@ -112,7 +112,7 @@ constexpr std::array<FootRing, 8> kFoot{{
 constexpr double kToeTipY = -120.5;
 
 struct ArmRing {
-  double step;  ///< along the arm's middle from the ring before
+  double step;                       ///< along the arm's middle from the ring before
   double outer, inner, front, back;  ///< radii
 };
 // Rings 1 to 16; 6 is the elbow, 12 the wrist.
@@ -198,7 +198,10 @@ double blended(const Dials& dials, BodyMeasure a, BodyMeasure b, double t) {
 class Builder {
  public:
   Builder(const Form& form, double height, const Dials& dials)
-      : form_(form), unit_(height / 1000 * std::exp(dials[at(BodyMeasure::Height)])), dials_(dials), points_(controlNet().vertexCount(), 3) {
+      : form_(form),
+        unit_(height / 1000 * std::exp(dials[at(BodyMeasure::Height)])),
+        dials_(dials),
+        points_(controlNet().vertexCount(), 3) {
     points_.setZero();
     // The height's dial has turned the unit; the others add to what the form has by itself.
     for (const BodyMeasureInfo& info : bodyMeasures()) {
@@ -355,7 +358,8 @@ class Builder {
 
   // ---- shoulders
   [[nodiscard]] Vector3d shoulderPoint() const {
-    const double out = blend(41, 47) * factor(BodyMeasure::NeckBase) + blend(65, 62) * factor(BodyMeasure::ShoulderLength);
+    const double out = blend(41, 47) * factor(BodyMeasure::NeckBase) +
+                       blend(65, 62) * factor(BodyMeasure::ShoulderLength);
     return {out, blend(-9, -10), level(blend(823, 829))};
   }
   void buildShoulders() {
@@ -369,9 +373,10 @@ class Builder {
     for (std::size_t spoke = 0; spoke < kArmSpokes; ++spoke) {
       const double t = 2 * kPi * static_cast<double>(spoke) / kArmSpokes;
       const double down = 0.5 * (1 - std::cos(t));
-      const Vector3d place(top.x() - lean * down - 3 * std::sin(t) * (spoke < 5 ? 1 : 0),
-                           top.y() - radiusY * std::sin(t) + blend(-2, 2) * std::sin(t) * std::sin(t),
-                           top.z() - 2 * radiusZ * down);
+      const Vector3d place(
+          top.x() - lean * down - 3 * std::sin(t) * (spoke < 5 ? 1 : 0),
+          top.y() - radiusY * std::sin(t) + blend(-2, 2) * std::sin(t) * std::sin(t),
+          top.z() - 2 * radiusZ * down);
       set(net.arm(Side::Left, 0, spoke), place);
     }
     const double deep = std::exp(0.8 * chest());
@@ -391,7 +396,8 @@ class Builder {
       if (row > kArmpitRow) {
         const Level& there = levels[row - kLowChestRow];
         const double fade = mix(deep, 1, 0.3 * static_cast<double>(row - kArmpitRow));
-        frontY = pivot + (there.frontY - pivot) * fade, backY = pivot + (there.backY - pivot) * fade;
+        frontY = pivot + (there.frontY - pivot) * fade,
+        backY = pivot + (there.backY - pivot) * fade;
         frontZ = level(there.frontZ), backZ = level(there.backZ);
       }
       const Vector3d front = get(net.torso(row, kSideColumn - 1));
@@ -405,7 +411,9 @@ class Builder {
         Vector3d place(s * front.x(), mix(frontY, front.y(), bend), mix(frontZ, front.z(), lift));
         if (keepsBreast) place.y() = std::min(place.y(), mix(get(f).y(), place.y(), s * s));
         set(f, place);
-        const double spine = armpit.backGroove * (1 - 0.17 * static_cast<double>(row - kArmpitRow)) * std::exp(-std::pow(s * back.x() / 24, 2));
+        const double spine = armpit.backGroove *
+                             (1 - 0.17 * static_cast<double>(row - kArmpitRow)) *
+                             std::exp(-std::pow(s * back.x() / 24, 2));
         set(b, {s * back.x(), mix(backY, back.y(), bend) - spine, mix(backZ, back.z(), lift)});
       }
     }
@@ -428,7 +436,8 @@ class Builder {
     }
   }
   void buildNeckAndHead() {
-    const double base = factor(BodyMeasure::NeckBase), neck = factor(BodyMeasure::Neck), head = factor(BodyMeasure::Head);
+    const double base = factor(BodyMeasure::NeckBase), neck = factor(BodyMeasure::Neck),
+                 head = factor(BodyMeasure::Head);
     const double throat = std::sqrt(neck * head);
     const Vector3d top = shoulderPoint();
     const double neckX = blend(41, 47) * base;
@@ -439,30 +448,42 @@ class Builder {
     {
       // Half-way between neck and shoulder the ring runs over the trapezius.
       const double t = 0.39;
-      setTilted(kMidShoulderRow, {about(blend(-47, -49), baseDepth) - blend(6, 3), level(806), mix(neckX, top.x(), t), blend(-6, -7), mix(neckZ, top.z(), t) + 1,
-                                  about(blend(14, 18), baseDepth) + blend(10, 16), level(828), 2.3, 2.3});
+      setTilted(kMidShoulderRow,
+                {about(blend(-47, -49), baseDepth) - blend(6, 3), level(806),
+                 mix(neckX, top.x(), t), blend(-6, -7), mix(neckZ, top.z(), t) + 1,
+                 about(blend(14, 18), baseDepth) + blend(10, 16), level(828), 2.3, 2.3});
     }
-    setTilted(kNeckBaseRow, {about(blend(-47, -49), baseDepth), level(818), neckX, -3, neckZ, about(blend(14, 18), baseDepth), level(852), 2.1, 2.1});
+    setTilted(kNeckBaseRow, {about(blend(-47, -49), baseDepth), level(818), neckX, -3, neckZ,
+                             about(blend(14, 18), baseDepth), level(852), 2.1, 2.1});
     const double chin = to_[6], crown = 1000;
     const auto headZ = [&](double part) { return mix(chin, crown, part); };
-    const double neckFrontZ = mix(level(818), chin, 0.62), neckBackZ = mix(level(852), headZ(0.2), 0.6);
+    const double neckFrontZ = mix(level(818), chin, 0.62),
+                 neckBackZ = mix(level(852), headZ(0.2), 0.6);
     const auto betweenBaseAndNeck = [&](double a, double b) { return mix(a, b, 0.58); };
     const double neckSideZ = 0.5 * (neckFrontZ + neckBackZ);
-    setTilted(kLowNeckRow,
-              {betweenBaseAndNeck(about(blend(-47, -49), baseDepth), about(blend(-44.5, -46), neck)) + 2,
-               betweenBaseAndNeck(level(818), neckFrontZ),
-               mix(neckX, blend(33.5, 37.5) * neck, 0.78), betweenBaseAndNeck(-3, about(-15, neck)),
-               betweenBaseAndNeck(neckZ, neckSideZ) + 3,
-               betweenBaseAndNeck(about(blend(14, 18), baseDepth), about(blend(10, 13.5), neck)) - 0.5,
-               betweenBaseAndNeck(level(852), neckBackZ), 2.1, 2.1});
-    setTilted(kNeckRow, {about(blend(-44.5, -46), neck), neckFrontZ, blend(33.5, 37.5) * neck, about(-15, neck), neckSideZ, about(blend(10, 13.5), neck), neckBackZ, 2.1, 2.1});
+    setTilted(
+        kLowNeckRow,
+        {betweenBaseAndNeck(about(blend(-47, -49), baseDepth), about(blend(-44.5, -46), neck)) + 2,
+         betweenBaseAndNeck(level(818), neckFrontZ), mix(neckX, blend(33.5, 37.5) * neck, 0.78),
+         betweenBaseAndNeck(-3, about(-15, neck)), betweenBaseAndNeck(neckZ, neckSideZ) + 3,
+         betweenBaseAndNeck(about(blend(14, 18), baseDepth), about(blend(10, 13.5), neck)) - 0.5,
+         betweenBaseAndNeck(level(852), neckBackZ), 2.1, 2.1});
+    setTilted(kNeckRow,
+              {about(blend(-44.5, -46), neck), neckFrontZ, blend(33.5, 37.5) * neck,
+               about(-15, neck), neckSideZ, about(blend(10, 13.5), neck), neckBackZ, 2.1, 2.1});
     const double yh = -30;
     const auto in = [&](double y) { return yh + (y - yh) * head; };
-    setTilted(kThroatRow, {mix(about(-46, neck), in(-54), 0.5), headZ(-0.02), mix(blend(30, 36) * throat, 33 * head, 0.5), in(-22), headZ(0.09), in(8), headZ(0.2), 2.0, 2.1});
-    setTilted(kChinRow, {in(-84), headZ(0.04), blend(36, 38) * head, in(-30), headZ(0.18), in(14), headZ(0.34), 1.75, 2.1});
-    setTilted(kFaceRow, {in(-91), headZ(0.27), 42.5 * head, in(-30.5), headZ(0.37), in(24), headZ(0.50), 1.95, 2.1});
-    setTilted(kForeheadRow, {in(-89), headZ(0.54), 44.5 * head, in(-28.5), headZ(0.58), in(27), headZ(0.64), 2.1, 2.1});
-    setTilted(kUpperHeadRow, {in(-76), headZ(0.80), 38 * head, in(-27.5), headZ(0.81), in(18), headZ(0.82), 2.1, 2.1});
+    setTilted(kThroatRow, {mix(about(-46, neck), in(-54), 0.5), headZ(-0.02),
+                           mix(blend(30, 36) * throat, 33 * head, 0.5), in(-22), headZ(0.09), in(8),
+                           headZ(0.2), 2.0, 2.1});
+    setTilted(kChinRow, {in(-84), headZ(0.04), blend(36, 38) * head, in(-30), headZ(0.18), in(14),
+                         headZ(0.34), 1.75, 2.1});
+    setTilted(kFaceRow, {in(-91), headZ(0.27), 42.5 * head, in(-30.5), headZ(0.37), in(24),
+                         headZ(0.50), 1.95, 2.1});
+    setTilted(kForeheadRow, {in(-89), headZ(0.54), 44.5 * head, in(-28.5), headZ(0.58), in(27),
+                             headZ(0.64), 2.1, 2.1});
+    setTilted(kUpperHeadRow, {in(-76), headZ(0.80), 38 * head, in(-27.5), headZ(0.81), in(18),
+                              headZ(0.82), 2.1, 2.1});
     for (std::size_t along = 1; along < kCrownAlong; ++along) {
       for (std::size_t across = 2; across < kCrownAcross; ++across) {
         const double u = (static_cast<double>(across) - 2) / 2;
@@ -494,31 +515,35 @@ class Builder {
         return factor(BodyMeasure::Wrist);
       default:
         if (row > kWristRow) return std::exp(0.5 * dials_[at(BodyMeasure::Wrist)]);
-        return blended(dials_, BodyMeasure::Elbow, BodyMeasure::Wrist, (static_cast<double>(row) - kElbowRow) / (kWristRow - kElbowRow));
+        return blended(dials_, BodyMeasure::Elbow, BodyMeasure::Wrist,
+                       (static_cast<double>(row) - kElbowRow) / (kWristRow - kElbowRow));
     }
   }
   void buildArms() {
     const ControlNet& net = controlNet();
     Vector3d middle = Vector3d::Zero();
-    for (std::size_t i = 0; i < kArmSpokes; ++i) middle += get(net.arm(Side::Left, 0, i)) / kArmSpokes;
+    for (std::size_t i = 0; i < kArmSpokes; ++i)
+      middle += get(net.arm(Side::Left, 0, i)) / kArmSpokes;
     const double length = factor(BodyMeasure::ArmLength) * mix(1.0, 0.95, form_.childlike);
     const double thick = blend(1, 1.12);
     // The arm leaves the opening at right angles; 13 degrees below level on a usual body.
-    const Vector3d rim = get(net.arm(Side::Left, 0, kArmOuter)) - get(net.arm(Side::Left, 0, kArmInner));
+    const Vector3d rim =
+        get(net.arm(Side::Left, 0, kArmOuter)) - get(net.arm(Side::Left, 0, kArmInner));
     const double rimFall = std::atan2(rim.x(), rim.z()) * 180 / kPi + 4;
     for (std::size_t row = 1; row <= kFingerRow; ++row) {
       const ArmRing& ring = kFemaleArm[row - 1];
       // The arm turns down from the opening, then a little forwards at the elbow.
-      const auto fall = [&](double r) {
-        return mix(rimFall, 48.0, std::clamp(r / 3.6, 0.0, 1.0));
+      const auto fall = [&](double r) { return mix(rimFall, 48.0, std::clamp(r / 3.6, 0.0, 1.0)); };
+      const auto ahead = [](double r) {
+        return 14.0 * std::clamp((r - 5.5) / 3.0, 0.0, 1.0) + 0.0;
       };
-      const auto ahead = [](double r) { return 14.0 * std::clamp((r - 5.5) / 3.0, 0.0, 1.0) + 0.0; };
       const double r = static_cast<double>(row);
       const auto direction = [&](double where) {
         const double a = fall(where) * kPi / 180, b = ahead(where) * kPi / 180;
         return Vector3d(std::cos(b) * std::cos(a), -std::sin(b), -std::cos(b) * std::sin(a));
       };
-      const double stretch = row <= kWristRow ? length : std::exp(0.5 * dials_[at(BodyMeasure::ArmLength)]);
+      const double stretch =
+          row <= kWristRow ? length : std::exp(0.5 * dials_[at(BodyMeasure::ArmLength)]);
       // A stout arm needs more length to turn in.
       const double room = row <= 3 ? std::max(1.0, thick * armScale(row)) : 1.0;
       middle += ring.step * stretch * room * direction(r - 0.5);
@@ -534,7 +559,8 @@ class Builder {
       const std::vector<double> turns = evenParameters(section, kArmSpokes);
       for (std::size_t spoke = 0; spoke < kArmSpokes; ++spoke) {
         const Eigen::Vector2d here = section(turns[spoke]);
-        set(net.arm(Side::Left, row, spoke), middle + scale * (here.x() * outer + here.y() * front));
+        set(net.arm(Side::Left, row, spoke),
+            middle + scale * (here.x() * outer + here.y() * front));
       }
     }
   }
@@ -557,19 +583,22 @@ class Builder {
       case kCalfRow:
         return factor(BodyMeasure::Calf);
       default:
-        return blended(dials_, BodyMeasure::Calf, BodyMeasure::Ankle, (static_cast<double>(row) - kCalfRow) / (kAnkleRow - kCalfRow));
+        return blended(dials_, BodyMeasure::Calf, BodyMeasure::Ankle,
+                       (static_cast<double>(row) - kCalfRow) / (kAnkleRow - kCalfRow));
     }
   }
   [[nodiscard]] LegRing legRing(std::size_t row) const {
     const LegRing& f = kFemaleLeg[row - 1];
     const LegRing& m = kMaleLeg[row - 1];
-    LegRing ring{level(f.z), blend(f.inner, m.inner), blend(f.outer, m.outer), blend(f.front, m.front), blend(f.back, m.back)};
+    LegRing ring{level(f.z), blend(f.inner, m.inner), blend(f.outer, m.outer),
+                 blend(f.front, m.front), blend(f.back, m.back)};
     // High up the inner side stays, so that the legs never meet; the calf grows about its middle.
     // There the outer side goes on the line of the hip, and the dial turns the depth.
     const double keep = std::clamp((static_cast<double>(row) - 1) / 4, 0.0, 1.0);
     const double own = std::log(legScale(row)), hip = dials_[at(BodyMeasure::Hip)];
     const double likeHip = std::pow(1 - keep, 1.5);
-    const double likeHipWide = std::log(1 + 0.7 * blend(105.5, 96.5) * (std::exp(hip) - 1) / (ring.outer - ring.inner));
+    const double likeHipWide =
+        std::log(1 + 0.7 * blend(105.5, 96.5) * (std::exp(hip) - 1) / (ring.outer - ring.inner));
     const double wide = std::exp(mix(own, likeHipWide, likeHip));
     const double deep = std::exp(mix(own, 1.9 * own - 0.9 * likeHipWide, likeHip));
     const double pivotX = mix(ring.inner, 0.5 * (ring.inner + ring.outer), keep);
@@ -600,10 +629,13 @@ class Builder {
     const ControlNet& net = controlNet();
     const LegRing ankle = legRing(kAnkleRow);
     const double x = 0.5 * (ankle.inner + ankle.outer), y = 0.5 * (ankle.front + ankle.back);
-    const double size = factor(BodyMeasure::FootLength), wide = std::exp(0.7 * dials_[at(BodyMeasure::FootLength)] + 0.3 * dials_[at(BodyMeasure::Ankle)]);
+    const double size = factor(BodyMeasure::FootLength),
+                 wide = std::exp(0.7 * dials_[at(BodyMeasure::FootLength)] +
+                                 0.3 * dials_[at(BodyMeasure::Ankle)]);
     const auto place = [&](double across, double ahead, double up) {
       return Vector3d(x + across * wide * std::cos(kToesOut) - ahead * size * std::sin(kToesOut),
-                      y + ahead * size * std::cos(kToesOut) + across * wide * std::sin(kToesOut), up);
+                      y + ahead * size * std::cos(kToesOut) + across * wide * std::sin(kToesOut),
+                      up);
     };
     for (std::size_t row = kAnkleRow + 1; row <= kToeRow; ++row) {
       const FootRing& ring = kFoot[row - kAnkleRow - 1];
@@ -627,9 +659,8 @@ class Builder {
       for (std::size_t spoke = 0; spoke < kLegSpokes; ++spoke) {
         const std::size_t turn = (spoke + kLegSpokes - kLegFront) % kLegSpokes;
         const Eigen::Vector2d here = section(turns[turn]);
-        set(net.leg(Side::Left, row, spoke),
-            place(here.x(), mix(ring.bottomY, ring.topY, here.y()),
-                  mix(ring.bottomZ, ring.topZ, here.y())));
+        set(net.leg(Side::Left, row, spoke), place(here.x(), mix(ring.bottomY, ring.topY, here.y()),
+                                                   mix(ring.bottomZ, ring.topZ, here.y())));
       }
     }
     for (std::size_t i = 0; i < 3; ++i) {
@@ -644,7 +675,8 @@ class Builder {
     for (std::size_t v = 0; v < partner.size(); ++v) {
       const auto from = static_cast<Eigen::Index>(v), to = static_cast<Eigen::Index>(partner[v]);
       if (partner[v] == v) points_(from, 0) = 0;
-      if (points_(from, 0) > 0) points_.row(to) << -points_(from, 0), points_(from, 1), points_(from, 2);
+      if (points_(from, 0) > 0)
+        points_.row(to) << -points_(from, 0), points_(from, 1), points_(from, 2);
     }
   }
 

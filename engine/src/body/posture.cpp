@@ -166,8 +166,7 @@ std::vector<Vector3d> inPosture(std::vector<Vector3d> places, Posture posture) {
     for (const Bend& bend : all) {
       const double share = isMiddle ? 0 : (*bend.share)[static_cast<Eigen::Index>(v)];
       if (share == 0) continue;
-      place = bend.joint +
-              Eigen::AngleAxisd(share * bend.angle, bend.axis) * (place - bend.joint);
+      place = bend.joint + Eigen::AngleAxisd(share * bend.angle, bend.axis) * (place - bend.joint);
     }
     places[v] = place;
     if (!isMiddle && posture != Posture::KneeBent) {

@@ -17,7 +17,8 @@ namespace {
 SurfacePath smoothLine(const ReferenceModel& model, const std::vector<std::size_t>& through) {
   std::vector<Eigen::Vector3d> controls;
   for (const std::size_t v : through) controls.push_back(model.mesh->position(VertexId(v)));
-  const std::vector<Eigen::Vector3d> row = subdivide<3>(controls, false, SubdivisionRule::Centripetal);
+  const std::vector<Eigen::Vector3d> row =
+      subdivide<3>(controls, false, SubdivisionRule::Centripetal);
   std::vector<SurfacePoint> points;
   for (const Eigen::Vector3d& place : row) points.push_back(model.index->closestPoint(place).point);
   // The ends are landmarks' places, to the bit.
@@ -35,9 +36,9 @@ void addPrincessLines(ReferenceModel& model) {
   const ControlNet& net = controlNet();
   const std::size_t shoulder = net.torso(kMidShoulderRow, kSideColumn);
   const auto at = [&](std::size_t row, std::size_t column) { return net.torso(row, column); };
-  const SurfacePath front = smoothLine(
-      model, {shoulder, at(kHighChestRow, 3), at(kBustRow, kBustColumn), at(kUnderbustRow, 2),
-              at(kWaistRow, 2), at(kHipRow, 3)});
+  const SurfacePath front =
+      smoothLine(model, {shoulder, at(kHighChestRow, 3), at(kBustRow, kBustColumn),
+                         at(kUnderbustRow, 2), at(kWaistRow, 2), at(kHipRow, 3)});
   const SurfacePath back =
       smoothLine(model, {shoulder, at(kHighChestRow, 8), at(kUnderbustRow, 8), at(kWaistRow, 8),
                          at(kHighHipRow, 8), at(kHipRow, kBackColumn - 1)});

@@ -56,8 +56,7 @@ constexpr std::array<Row, 11> kChildren{{
     {164, 164, 83, 70, 89},
 }};
 
-void append(std::vector<BodySize>& sizes, std::span<const Row> rows, char group,
-            double masculine) {
+void append(std::vector<BodySize>& sizes, std::span<const Row> rows, char group, double masculine) {
   for (const Row& row : rows) {
     BodySize size;
     size.name = fmt::format("EU{}{}", row.number, group);
@@ -111,10 +110,10 @@ Result<BodySize> findSize(const std::vector<BodySize>& sizes, std::string_view n
     if (size.name == name) return size;
     names.push_back(size.name);
   }
-  return Error{ErrorCode::NameNotFound,
-               "there is no size \"" + std::string(name) + "\"" +
-                   suggestion(std::string(name), names),
-               {}};
+  return Error{
+      ErrorCode::NameNotFound,
+      "there is no size \"" + std::string(name) + "\"" + suggestion(std::string(name), names),
+      {}};
 }
 
 Result<std::vector<BodySize>> parseSizeTable(std::string_view csv, const std::string& file,
@@ -149,9 +148,9 @@ Result<std::vector<BodySize>> parseSizeTable(std::string_view csv, const std::st
       continue;
     }
     if (row.size() != columns.size()) {
-      return refusal(file, number,
-                     fmt::format("{} cells, but the first line names {}", row.size(),
-                                 columns.size()));
+      return refusal(
+          file, number,
+          fmt::format("{} cells, but the first line names {}", row.size(), columns.size()));
     }
     BodySize size;
     for (std::size_t i = 0; i < row.size(); ++i) {

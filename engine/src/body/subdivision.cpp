@@ -44,8 +44,7 @@ Refinement refine(const Quads& quads, const std::vector<std::size_t>& partner) {
   for (const auto& quad : quads) {
     for (std::size_t i = 0; i < 4; ++i) {
       ++valence[quad[i]];  // a closed surface: as many quads as edges around a vertex
-      const auto [found, isNew] =
-          out.edgePoint.emplace(edgeOf(quad[i], quad[(i + 1) % 4]), next);
+      const auto [found, isNew] = out.edgePoint.emplace(edgeOf(quad[i], quad[(i + 1) % 4]), next);
       if (isNew) ++next;
     }
   }

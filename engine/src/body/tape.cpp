@@ -84,9 +84,8 @@ std::vector<std::size_t> footVertices() {
   }
   for (std::size_t row = kAnkleRow + 1; row <= kToeRow; ++row) {
     for (std::size_t spoke = 0; spoke < kLegSpokes; ++spoke) {
-      const auto along =
-          subdivision().alongEdge(controlNet().leg(Side::Left, row, spoke),
-                                  controlNet().leg(Side::Left, row, spoke + 1));
+      const auto along = subdivision().alongEdge(controlNet().leg(Side::Left, row, spoke),
+                                                 controlNet().leg(Side::Left, row, spoke + 1));
       vertices.insert(vertices.end(), along.begin(), along.end() - 1);
     }
   }

@@ -34,8 +34,8 @@ class Tape {
 
   std::vector<std::size_t> vertices_;
   SparseRows weights_;
-  std::vector<Line> lines_;          ///< by measure; empty where it is no line
-  std::vector<Eigen::Index> foot_;   ///< rows of the left foot
+  std::vector<Line> lines_;         ///< by measure; empty where it is no line
+  std::vector<Eigen::Index> foot_;  ///< rows of the left foot
   Eigen::Index crown_ = 0, crotch_ = 0;
 };
 

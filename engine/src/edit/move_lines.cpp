@@ -207,6 +207,14 @@ Result<Edited> shareCrossings(const Document& document, std::span<const std::str
   }
   for (std::size_t a = 0; a < ids.size(); ++a) {
     for (std::size_t b = a + 1; b < ids.size(); ++b) {
+      for (WorkCurve* curve : {&work[a], &work[b]}) {
+        const Result<void> linked = detail::linkAll(sketch.linker(), *curve);
+        if (!linked) return linked.error();
+      }
+      // A link of rounding's size may have lost its face; such lines are left as they are.
+      if (!isValid(mesh, detail::pathOf(work[a])) || !isValid(mesh, detail::pathOf(work[b]))) {
+        continue;
+      }
       for (const PathMeeting& meeting :
            findMeetings(mesh, detail::pathOf(work[a]), detail::pathOf(work[b]))) {
         const std::size_t inA = detail::insertData(mesh, work[a], meeting.a);

@@ -96,6 +96,8 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
         sketch.store(otherId, made->curve);
         continue;
       }
+      if (const Result<void> linked = linkAll(sketch.linker(), curve); !linked) return linked;
+      if (!isValid(mesh, pathOf(curve)) || !isValid(mesh, pathOf(*other))) continue;
       // A crossing: where the changed curve crosses the other now, nearest to the old place.
       const SurfacePath path = pathOf(curve), otherPath = pathOf(*other);
       std::optional<PathMeeting> nearest;

@@ -18,7 +18,11 @@ Result<void> linkAll(GeodesicLinker& linker, WorkCurve& curve) {
   const std::size_t count = curve.data.size() - (curve.closed ? 0 : 1);
   curve.links.resize(count);
   for (std::size_t i = 0; i < count; ++i) {
-    if (!curve.links[i].points.empty()) continue;
+    const SurfacePath& old = curve.links[i];
+    if (!old.points.empty() && old.points.front() == curve.from(i) &&
+        old.points.back() == curve.to(i)) {
+      continue;
+    }
     Result<SurfacePath> link = linker.link(curve.from(i), curve.to(i));
     if (!link) return link.error();
     curve.links[i] = *std::move(link);
@@ -120,7 +124,13 @@ std::size_t insertData(const Mesh& mesh, WorkCurve& curve, double arc) {
     if (before > place.along * span) break;
     ++segment;
   }
-  while (segment > 0 && !touches(mesh, point, whole.faceOfSegment[segment])) --segment;
+  if (!touches(mesh, point, whole.faceOfSegment[segment])) {  // rounding: it is a neighbour's
+    const std::size_t next = segment + 1;
+    const bool isNext =
+        next < whole.faceOfSegment.size() && touches(mesh, point, whole.faceOfSegment[next]);
+    while (!isNext && segment > 0 && !touches(mesh, point, whole.faceOfSegment[segment])) --segment;
+    if (isNext) segment = next;
+  }
   SurfacePath first, second;
   const auto step = [](SurfacePath& path, const SurfacePoint& next, FaceId face) {
     if (!path.points.empty() && path.points.back() == next) return;

@@ -29,7 +29,8 @@ struct WorkCurve {
 /// Data points closer to their neighbour are the same, mm.
 inline constexpr double kSameDataPoint = 1e-6;
 
-/// Links what is not linked yet. Precondition: neighbours differ.
+/// Links what is not linked yet, or no longer between its data points. Precondition: neighbours
+/// differ.
 Result<void> linkAll(GeodesicLinker& linker, WorkCurve& curve);
 /// Drops data points that lie on their neighbour (a control point rather than another stays), and
 /// links. CurveInvalid when fewer than 2 (closed: 3) are left.

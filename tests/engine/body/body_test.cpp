@@ -130,8 +130,8 @@ TEST(Body, IsSoundForRandomMeasures) {
     EXPECT_EQ(findCrossingFaces(*model->mesh).size(), 0U);
     narrowest = std::max(narrowest, narrowShare(*model->mesh));
   }
-  std::cout << trials << " bodies, the slowest in " << slowest << " s, at most "
-            << 100 * narrowest << " % of triangles below 20 degrees\n";
+  std::cout << trials << " bodies, the slowest in " << slowest << " s, at most " << 100 * narrowest
+            << " % of triangles below 20 degrees\n";
 }
 
 }  // namespace
