@@ -15,7 +15,7 @@ import sys
 import tempfile
 
 # The order of docs/architecture.md. `pipeline` is engine/include/toile/pipeline.h and its source.
-TOPICS = ("core mesh curve model design cut unfold develop finish layout fit transfer body shape "
+TOPICS = ("core mesh curve model design edit cut unfold develop finish layout fit transfer body shape "
           "sew io pipeline batch").split()
 ORDER = {topic: i for i, topic in enumerate(TOPICS)}
 

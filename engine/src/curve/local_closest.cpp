@@ -8,9 +8,12 @@ namespace toile::detail {
 using Eigen::Vector3d;
 
 SurfacePoint LocalClosest::find(const Vector3d& place, const SurfacePoint& guide) {
+  return find(place, guide, 2 * (place - position(mesh_, guide)).norm());
+}
+
+SurfacePoint LocalClosest::find(const Vector3d& place, const SurfacePoint& guide, double radius) {
   ++call_;
   const Vector3d centre = position(mesh_, guide);
-  const double radius = 2 * (place - centre).norm();
   queue_ = facesOf(mesh_, guide);
   for (const FaceId f : queue_) seen_[f.index()] = call_;
 

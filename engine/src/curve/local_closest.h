@@ -18,6 +18,8 @@ class LocalClosest {
   /// Searches the connected part, around the guide, of the surface within the ball around it that
   /// must hold the closest point: twice as large as the distance from guide to place.
   SurfacePoint find(const Eigen::Vector3d& place, const SurfacePoint& guide);
+  /// The same within a ball of the given radius around the guide.
+  SurfacePoint find(const Eigen::Vector3d& place, const SurfacePoint& guide, double radius);
 
  private:
   const Mesh& mesh_;

@@ -145,9 +145,54 @@ std::vector<Eigen::Matrix<double, Dimension, 1>> subdivide(
   return coarse;
 }
 
+template <int Dimension>
+std::vector<Eigen::Matrix<double, Dimension, 1>> subdivideWithCorners(
+    std::span<const Eigen::Matrix<double, Dimension, 1>> points, bool closed,
+    std::span<const std::size_t> corners, SubdivisionRule rule, int rounds) {
+  const std::size_t n = points.size();
+  std::vector<std::size_t> breaks;
+  for (const std::size_t corner : corners) {
+    const bool isInside = closed ? corner < n : corner > 0 && corner + 1 < n;
+    if (isInside && (breaks.empty() || breaks.back() < corner)) breaks.push_back(corner);
+  }
+  if (breaks.empty()) return subdivide<Dimension>(points, closed, rule, rounds);
+
+  // A closed row is taken from its first corner on, once around.
+  const std::size_t first = closed ? breaks.front() : 0;
+  const std::size_t last = closed ? n : n - 1;
+  std::vector<std::size_t> ends;  // of the parts, counted from `first`
+  for (const std::size_t at : breaks) {
+    if (at > first) ends.push_back(at - first);
+  }
+  ends.push_back(last);
+  Points<Dimension> fine;
+  std::size_t from = 0;
+  for (const std::size_t to : ends) {
+    Points<Dimension> part;
+    for (std::size_t i = from; i <= to; ++i) part.push_back(points[(first + i) % n]);
+    const Points<Dimension> refined = subdivide<Dimension>(part, false, rule, rounds);
+    if (!fine.empty()) fine.pop_back();
+    fine.insert(fine.end(), refined.begin(), refined.end());
+    from = to;
+  }
+  if (closed) {
+    fine.pop_back();
+    const std::size_t back = first << static_cast<unsigned>(rounds);
+    std::rotate(fine.begin(), fine.end() - static_cast<std::ptrdiff_t>(back), fine.end());
+  }
+  return fine;
+}
+
 template std::vector<Eigen::Vector2d> subdivide<2>(std::span<const Eigen::Vector2d>, bool,
                                                    SubdivisionRule, int);
 template std::vector<Eigen::Vector3d> subdivide<3>(std::span<const Eigen::Vector3d>, bool,
                                                    SubdivisionRule, int);
+
+template std::vector<Eigen::Vector2d> subdivideWithCorners<2>(std::span<const Eigen::Vector2d>,
+                                                              bool, std::span<const std::size_t>,
+                                                              SubdivisionRule, int);
+template std::vector<Eigen::Vector3d> subdivideWithCorners<3>(std::span<const Eigen::Vector3d>,
+                                                              bool, std::span<const std::size_t>,
+                                                              SubdivisionRule, int);
 
 }  // namespace toile

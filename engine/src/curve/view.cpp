@@ -52,7 +52,6 @@ class Projection {
            continueTo(*middle, b, refinements - 1, row);
   }
 
- private:
   bool isNear(const Hit& a, const Hit& b) {
     if (a.point == b.point) return true;
     const Result<SurfacePath> way = linker_.link(a.point, b.point);
@@ -60,6 +59,7 @@ class Projection {
     return length(index_.mesh(), *way) <= kJumpRatio * (b.position - a.position).norm();
   }
 
+ private:
   const SurfaceIndex& index_;
   const View& view_;
   GeodesicLinker linker_;
@@ -119,6 +119,80 @@ Result<std::vector<SurfacePoint>> projectFromView(const SurfaceIndex& index, con
     }
   }
   return row;
+}
+
+ViewProjection projectRunsFromView(const SurfaceIndex& index, const View& view,
+                                   std::span<const Vector2d> points) {
+  constexpr int kHalvings = 10;
+  Projection projection(index, view);
+  ViewProjection result;
+  ViewRun run;
+  std::optional<Hit> last;
+  const auto begin = [&](const Hit& hit, double at) {
+    run = {};
+    run.points.push_back(hit.point);
+    run.from = run.to = at;
+    last = hit;
+  };
+  const auto finish = [&] {
+    if (run.points.size() > 1) result.runs.push_back(std::move(run));
+    run = {};
+    last.reset();
+  };
+  const auto append = [&](const Hit& hit, double at) {
+    if (!projection.continueTo(*last, hit, kRefinements, run.points)) return false;
+    run.to = at;
+    last = hit;
+    return true;
+  };
+  /// The place farthest from `inside` on the way to `outside` that still belongs to it.
+  struct Edge {
+    Hit hit;
+    double at;
+  };
+  const auto edgeOf = [&](const Hit& inside, double insideAt, const Vector2d& outside,
+                          double outsideAt) {
+    Edge edge{inside, insideAt};
+    Vector2d beyond = outside;
+    double beyondAt = outsideAt;
+    for (int i = 0; i < kHalvings; ++i) {
+      const Vector2d middle = 0.5 * (edge.hit.drawn + beyond);
+      const double at = 0.5 * (edge.at + beyondAt);
+      const std::optional<Hit> hit = projection.hit(middle);
+      if (hit && projection.isNear(edge.hit, *hit)) {
+        edge = {*hit, at};
+      } else {
+        beyond = middle;
+        beyondAt = at;
+      }
+    }
+    return edge;
+  };
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto at = static_cast<double>(i);
+    const std::optional<Hit> hit = projection.hit(points[i]);
+    if (last && hit && append(*hit, at)) continue;
+    if (last) {
+      const Edge edge = edgeOf(*last, at - 1, points[i], at);
+      append(edge.hit, edge.at);
+      result.cuts.push_back(
+          {hit ? ViewCut::Reason::OtherPart : ViewCut::Reason::Silhouette, edge.hit.drawn});
+      finish();
+    }
+    if (!hit) continue;
+    if (i == 0) {
+      begin(*hit, at);
+      continue;
+    }
+    const Edge edge = edgeOf(*hit, at, points[i - 1], at - 1);
+    if (result.cuts.empty() || result.cuts.back().reason != ViewCut::Reason::OtherPart) {
+      result.cuts.push_back({ViewCut::Reason::Silhouette, edge.hit.drawn});
+    }
+    begin(edge.hit, edge.at);
+    if (!append(*hit, at)) begin(*hit, at);
+  }
+  finish();
+  return result;
 }
 
 }  // namespace toile

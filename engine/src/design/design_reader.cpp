@@ -118,8 +118,13 @@ SectionPlane readPlane(const JsonPlace& at) {
   SectionPlane plane;
   plane.normal = readDirection(object.need("normal"));
   if (const auto through = object.find("through")) {
-    if (object.has("offset")) at.fail("a section has \"through\" or \"offset\", not both");
+    if (object.has("offset") || object.has("point")) {
+      at.fail("a section has one of \"through\", \"point\", \"offset\"");
+    }
     plane.through = AtLandmark{readName(*through)};
+  } else if (const auto point = object.find("point")) {
+    if (object.has("offset")) at.fail("a section has one of \"through\", \"point\", \"offset\"");
+    plane.through = readModelPoint(*point);
   } else {
     plane.through = readLength(object.need("offset"));
   }
@@ -188,6 +193,19 @@ SubdivisionRule readRule(JsonObject& object) {
   return rule ? rule->oneOf(kRuleNames) : SubdivisionRule::Auto;
 }
 
+std::vector<std::size_t> readCorners(JsonObject& object, std::size_t controls) {
+  std::vector<std::size_t> corners;
+  const auto list = object.find("corners");
+  if (!list) return corners;
+  for (const JsonPlace& item : list->items()) {
+    const std::size_t index = item.index();
+    if (index >= controls) item.fail("a corner must be one of the control points, from 0");
+    if (!corners.empty() && index <= corners.back()) item.fail("corners must ascend");
+    corners.push_back(index);
+  }
+  return corners;
+}
+
 ViewWay readViewWay(JsonObject& object, const JsonPlace& viewPlace) {
   ViewWay way;
   JsonObject view(viewPlace);
@@ -201,6 +219,7 @@ ViewWay readViewWay(JsonObject& object, const JsonPlace& viewPlace) {
     way.controls.push_back(item.vector<2>());
   }
   way.rule = readRule(object);
+  way.corners = readCorners(object, way.controls.size());
   way.unknown = object.unknown();
   return way;
 }
@@ -219,6 +238,7 @@ CurveWay readWay(const JsonPlace& at) {
   JsonObject object(at);
   if (const auto smooth = object.find("smooth")) {
     SmoothWay way{readPlaces(*smooth), readRule(object)};
+    way.corners = readCorners(object, way.controls.size());
     way.unknown = object.unknown();
     return way;
   }

@@ -114,6 +114,8 @@ std::string text(const SectionPlane& plane) {
   out.add("normal", numbers(plane.normal));
   if (const auto* landmark = std::get_if<AtLandmark>(&plane.through)) {
     out.add("through", quoteJson(landmark->name));
+  } else if (const auto* point = std::get_if<ModelPoint>(&plane.through)) {
+    out.add("point", members(*point).row());
   } else {
     out.add("offset", quantity(std::get<Length>(plane.through)));
   }
@@ -167,6 +169,11 @@ void addRule(Members& out, SubdivisionRule rule) {
   if (rule != SubdivisionRule::Auto) out.add("rule", quoteJson(nameOf(kRuleNames, rule)));
 }
 
+void addCorners(Members& out, const std::vector<std::size_t>& corners) {
+  if (corners.empty()) return;
+  out.add("corners", row(each(corners, [](std::size_t i) { return std::to_string(i); })));
+}
+
 std::string text(const View& view, const UnknownKeys& unknown) {
   return Members()
       .add("eye", numbers(view.eye))
@@ -187,6 +194,7 @@ std::string text(const CurveWay& way, int indent) {
             Members out;
             out.add("smooth", places(w.controls, inner));
             addRule(out, w.rule);
+            addCorners(out, w.corners);
             return out.addUnknown(w.unknown).block(indent);
           },
           [&](const ViewWay& w) {
@@ -196,6 +204,7 @@ std::string text(const CurveWay& way, int indent) {
                 "controls",
                 block(each(w.controls, [](const auto& point) { return numbers(point); }), inner));
             addRule(out, w.rule);
+            addCorners(out, w.corners);
             return out.addUnknown(w.unknown).block(indent);
           },
           [](const AlongModelCurve& w) {

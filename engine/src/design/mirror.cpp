@@ -52,24 +52,32 @@ SurfacePoint mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
   return {SurfacePoint::InFace{image.face, weights}};
 }
 
-Result<SurfacePath> mirrored(const ReferenceModel& model, GeodesicLinker& linker,
-                             const SurfacePath& path) {
+Result<SurfacePoint> mirrored(const ReferenceModel& model, const SurfacePoint& point) {
   if (!model.symmetry) {
     return Error{ErrorCode::CurveInvalid,
                  "the model has no symmetry to mirror a curve by; give the curve its own way",
                  {}};
   }
-  const Mesh& mesh = *model.mesh;
   const Symmetry& symmetry = *model.symmetry;
-  if (symmetry.partner.empty()) {
+  if (!symmetry.partner.empty()) return mirrored(*model.mesh, symmetry.partner, point);
+  const Eigen::Vector3d p = position(*model.mesh, point);
+  const double distance = symmetry.normal.dot(p) - symmetry.offset;
+  return model.index->closestPoint(p - 2 * distance * symmetry.normal).point;
+}
+
+Result<SurfacePath> mirrored(const ReferenceModel& model, GeodesicLinker& linker,
+                             const SurfacePath& path) {
+  if (!model.symmetry || model.symmetry->partner.empty()) {
     std::vector<SurfacePoint> points;
     for (const SurfacePoint& point : path.points) {
-      const Eigen::Vector3d p = position(mesh, point);
-      const double distance = symmetry.normal.dot(p) - symmetry.offset;
-      points.push_back(model.index->closestPoint(p - 2 * distance * symmetry.normal).point);
+      Result<SurfacePoint> image = mirrored(model, point);
+      if (!image) return image.error();
+      points.push_back(*std::move(image));
     }
     return linker.linkAll(points, path.closed);
   }
+  const Mesh& mesh = *model.mesh;
+  const Symmetry& symmetry = *model.symmetry;
   SurfacePath image;
   image.closed = path.closed;
   for (const SurfacePoint& point : path.points) {

@@ -10,6 +10,10 @@ namespace toile::detail {
 SurfacePoint mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
                       const SurfacePoint& point);
 
+/// The mirror image of a point: its partner where there is an exact pairing, else the closest point
+/// to its reflection. CurveInvalid when the model has no symmetry.
+Result<SurfacePoint> mirrored(const ReferenceModel& model, const SurfacePoint& point);
+
 /// The mirror image of a path, point by point in the same order. Without an exact pairing the
 /// points are reflected in the plane, put on the surface by closest point and linked again.
 /// @return CurveInvalid when the model has no symmetry.

@@ -28,12 +28,17 @@ bool holdsModelPoints(const Design& design) {
   const auto isModelPoint = [](const Place& place) {
     bool found = false;
     detail::forEachOfKind<ModelPoint>(place, [&](const ModelPoint&) { found = true; });
+    detail::forEachOfKind<OnSection>(place, [&](const OnSection& on) {
+      found = found || std::holds_alternative<ModelPoint>(on.plane.through);
+    });
     return found;
   };
   for (const StylingCurve& curve : design.curves) {
     if (!curve.dataPoints.empty() || std::holds_alternative<AlongVertices>(curve.way)) return true;
     const auto* smooth = std::get_if<SmoothWay>(&curve.way);
     const auto* shortest = std::get_if<ShortestWay>(&curve.way);
+    const auto* section = std::get_if<AlongSection>(&curve.way);
+    if (section && std::holds_alternative<ModelPoint>(section->plane.through)) return true;
     if (smooth && std::any_of(smooth->controls.begin(), smooth->controls.end(), isModelPoint)) {
       return true;
     }
@@ -62,8 +67,8 @@ Result<void> checkConnectivity(const Design& design, const ReferenceModel& model
 
 class CurvePlacer {
  public:
-  CurvePlacer(const Design& design, const ReferenceModel& model)
-      : design_(design), model_(model), linker_(model.mesh), state_(design.curves.size()) {}
+  CurvePlacer(const Design& design, const ReferenceModel& model, GeodesicLinker& linker)
+      : design_(design), model_(model), linker_(linker), state_(design.curves.size()) {}
 
   Result<std::vector<PlacedCurve>> placeAll() {
     for (std::size_t i = 0; i < design_.curves.size(); ++i) {
@@ -72,6 +77,15 @@ class CurvePlacer {
     // Curves that others hang on were placed before them; the result has the design's order.
     std::vector<PlacedCurve> ordered;
     for (const StylingCurve& curve : design_.curves) ordered.push_back(*findPlaced(curve.id));
+    return ordered;
+  }
+
+  Result<std::vector<PlacedCurve>> placeSome(std::span<const std::string> ids) {
+    std::vector<PlacedCurve> ordered;
+    for (const std::string& id : ids) {
+      if (const Result<void> done = placeById(id); !done) return done.error();
+      ordered.push_back(*findPlaced(id));
+    }
     return ordered;
   }
 
@@ -141,20 +155,25 @@ class CurvePlacer {
       if (const auto* shortest = std::get_if<ShortestWay>(&curve.way)) gather(shortest->controls);
     }
     for (const std::string& id : needed) {
-      const auto found = std::find_if(design_.curves.begin(), design_.curves.end(),
-                                      [&](const StylingCurve& c) { return c.id == id; });
-      if (found == design_.curves.end()) {
-        std::vector<std::string> known;
-        for (const StylingCurve& c : design_.curves) known.push_back(c.id);
-        Error error =
-            detail::nameNotFound("curve", id, known).during(fmt::format("curve \"{}\"", curve.id));
-        error.where = {Element::curve(curve.id)};
-        return error;
-      }
-      const Result<void> done = place(static_cast<std::size_t>(found - design_.curves.begin()));
-      if (!done) return done;
+      const Result<void> done = placeById(id);
+      if (done) continue;
+      if (done.error().code != ErrorCode::NameNotFound || !done.error().where.empty()) return done;
+      Error error = done.error().during(fmt::format("curve \"{}\"", curve.id));
+      error.where = {Element::curve(curve.id)};
+      return error;
     }
     return {};
+  }
+
+  Result<void> placeById(const std::string& id) {
+    const auto found = std::find_if(design_.curves.begin(), design_.curves.end(),
+                                    [&](const StylingCurve& c) { return c.id == id; });
+    if (found != design_.curves.end()) {
+      return place(static_cast<std::size_t>(found - design_.curves.begin()));
+    }
+    std::vector<std::string> known;
+    for (const StylingCurve& c : design_.curves) known.push_back(c.id);
+    return detail::nameNotFound("curve", id, known);
   }
 
   Result<Way> findWay(const StylingCurve& curve) {
@@ -235,7 +254,7 @@ class CurvePlacer {
       }
     }
     Result<std::vector<SurfacePoint>> data =
-        detail::smoothPoints(*model_.index, linker_, *controls, closed, way.rule);
+        detail::smoothPoints(*model_.index, linker_, *controls, closed, way.rule, way.corners);
     if (!data) return data.error();
     return link(*std::move(data), closed);
   }
@@ -248,7 +267,8 @@ class CurvePlacer {
                                way.controls.size(), closed ? "a closed" : "an open", needed),
                    {}};
     }
-    std::vector<Eigen::Vector2d> row = subdivide<2>(way.controls, closed, way.rule);
+    std::vector<Eigen::Vector2d> row =
+        subdivideWithCorners<2>(way.controls, closed, way.corners, way.rule);
     // The projection also looks for a jump on the way back to the start.
     if (closed) row.push_back(row.front());
     Result<std::vector<SurfacePoint>> points = projectFromView(*model_.index, way.view, row);
@@ -315,7 +335,7 @@ class CurvePlacer {
 
   const Design& design_;
   const ReferenceModel& model_;
-  GeodesicLinker linker_;
+  GeodesicLinker& linker_;
   std::vector<State> state_;
   std::vector<std::string> started_;  ///< the chain of curves that wait for each other
   std::vector<PlacedCurve> placed_;
@@ -334,7 +354,15 @@ Result<std::vector<PlacedCurve>> placeCurves(const Design& design, const Referen
       }
     }
   }
-  return CurvePlacer(design, model).placeAll();
+  GeodesicLinker linker(model.mesh);
+  return CurvePlacer(design, model, linker).placeAll();
+}
+
+Result<std::vector<PlacedCurve>> placeCurves(const Design& design, const ReferenceModel& model,
+                                             std::span<const std::string> ids,
+                                             GeodesicLinker& linker) {
+  if (const Result<void> fits = checkConnectivity(design, model); !fits) return fits.error();
+  return CurvePlacer(design, model, linker).placeSome(ids);
 }
 
 }  // namespace toile

@@ -200,6 +200,11 @@ Result<SurfacePath> sectionLoop(const SectionPlane& plane, const ReferenceModel&
     }
     through = position(mesh, found->second);
     offset = normal.dot(*through);
+  } else if (const auto* stored = std::get_if<ModelPoint>(&plane.through)) {
+    const Result<SurfacePoint> point = toSurfacePoint(mesh, *stored);
+    if (!point) return point.error();
+    through = position(mesh, *point);
+    offset = normal.dot(*through);
   } else {
     offset = std::get<Length>(plane.through).mm();
   }

@@ -14,11 +14,12 @@ constexpr double kJumpRatio = 3;
 
 Result<std::vector<SurfacePoint>> smoothPoints(const SurfaceIndex& index, GeodesicLinker& linker,
                                                const std::vector<SurfacePoint>& controls,
-                                               bool closed, SubdivisionRule rule) {
+                                               bool closed, SubdivisionRule rule,
+                                               std::span<const std::size_t> corners) {
   const Mesh& mesh = index.mesh();
   std::vector<Eigen::Vector3d> places;
   for (const SurfacePoint& control : controls) places.push_back(position(mesh, control));
-  const std::vector<Eigen::Vector3d> fine = subdivide<3>(places, closed, rule);
+  const std::vector<Eigen::Vector3d> fine = subdivideWithCorners<3>(places, closed, corners, rule);
 
   constexpr std::size_t steps = std::size_t{1} << kSubdivisionRounds;
   const std::size_t spans = controls.size() - (closed ? 0 : 1);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "curve/local_closest.h"
@@ -18,6 +19,7 @@ namespace toile::detail {
 /// between the two control points.
 Result<std::vector<SurfacePoint>> smoothPoints(const SurfaceIndex& index, GeodesicLinker& linker,
                                                const std::vector<SurfacePoint>& controls,
-                                               bool closed, SubdivisionRule rule);
+                                               bool closed, SubdivisionRule rule,
+                                               std::span<const std::size_t> corners = {});
 
 }  // namespace toile::detail

@@ -234,7 +234,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"\"smooth\": [", "\"smoth\": [", "/curves/0/way", "a way has one of"},
         Damage{"[0, 0, 1]", "[0, 0, 0]", "/section/normal", "must not be zero"},
         Damage{"\"through\": \"hip_front\"", "\"through\": \"hip_front\", \"offset\": \"1mm\"",
-               "/curves/0/way/smooth/2/section", "not both"},
+               "/curves/0/way/smooth/2/section", "one of"},
         Damage{"\"edge\": [3, 9]", "\"edge\": [9, 3]", "/curves/2/points/1/edge", "smaller"},
         Damage{"\"t\": 0.25", "\"t\": 1", "/curves/2/points/1/t", "below 1"},
         Damage{"[0.5, 0.25, 0.25]", "[0.5, 0.25, 0.26]", "/curves/2/points/2/weights", "add up"},

@@ -82,6 +82,8 @@ class RandomDesign {
     plane.normal = vector();
     if (chance()) {
       plane.through = AtLandmark{"hip_front"};
+    } else if (chance()) {
+      plane.through = modelPoint();
     } else {
       plane.through = Length::mm(number());
     }
@@ -120,12 +122,15 @@ class RandomDesign {
     const auto rule = static_cast<SubdivisionRule>(below(3));
     switch (below(7)) {
       case 0:
-        return SmoothWay{places(design), rule, unknown()};
+        return SmoothWay{places(design), rule,
+                         chance() ? std::vector<std::size_t>{0} : std::vector<std::size_t>{},
+                         unknown()};
       case 1: {
         ViewWay way;
         way.view = {vector(), vector(), vector(), 1 + std::abs(number()), chance()};
         for (std::size_t i = below(4); i > 0; --i) way.controls.emplace_back(number(), number());
         way.rule = rule;
+        if (!way.controls.empty()) way.corners = {way.controls.size() - 1};
         way.unknown = unknown();
         way.unknownOfView = unknown();
         return way;

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <cstddef>
 #include <span>
 #include <vector>
 
@@ -31,9 +32,22 @@ std::vector<Eigen::Matrix<double, Dimension, 1>> subdivide(
     std::span<const Eigen::Matrix<double, Dimension, 1>> points, bool closed,
     SubdivisionRule rule = SubdivisionRule::Auto, int rounds = kSubdivisionRounds);
 
+/// The same with sharp corners: at these control points (indices, ascending) the curve breaks off
+/// and begins anew. An index at an open end changes nothing.
+template <int Dimension>
+std::vector<Eigen::Matrix<double, Dimension, 1>> subdivideWithCorners(
+    std::span<const Eigen::Matrix<double, Dimension, 1>> points, bool closed,
+    std::span<const std::size_t> corners, SubdivisionRule rule = SubdivisionRule::Auto,
+    int rounds = kSubdivisionRounds);
+
 extern template std::vector<Eigen::Vector2d> subdivide<2>(std::span<const Eigen::Vector2d>, bool,
                                                           SubdivisionRule, int);
 extern template std::vector<Eigen::Vector3d> subdivide<3>(std::span<const Eigen::Vector3d>, bool,
                                                           SubdivisionRule, int);
+
+extern template std::vector<Eigen::Vector2d> subdivideWithCorners<2>(
+    std::span<const Eigen::Vector2d>, bool, std::span<const std::size_t>, SubdivisionRule, int);
+extern template std::vector<Eigen::Vector3d> subdivideWithCorners<3>(
+    std::span<const Eigen::Vector3d>, bool, std::span<const std::size_t>, SubdivisionRule, int);
 
 }  // namespace toile

@@ -34,4 +34,32 @@ struct Ray {
 Result<std::vector<SurfacePoint>> projectFromView(const SurfaceIndex& index, const View& view,
                                                   std::span<const Eigen::Vector2d> points);
 
+/// A stretch of a drawn row that lies on one part of the model.
+struct ViewRun {
+  std::vector<SurfacePoint> points;
+  double from = 0;  ///< where it begins in the row: the index of a point, or between two
+  double to = 0;
+};
+
+/// Why a drawn row was cut.
+struct ViewCut {
+  enum class Reason {
+    Silhouette,  ///< the drawing leaves the outline of the model, or comes onto it
+    OtherPart    ///< it passes to a part of the model that does not hang together with the last
+  };
+  Reason reason = Reason::Silhouette;
+  Eigen::Vector2d where;  ///< mm in the view
+};
+
+struct ViewProjection {
+  std::vector<ViewRun> runs;  ///< of two points and more, in the order of the row
+  std::vector<ViewCut> cuts;
+};
+
+/// Puts a drawn row on the surface as far as it can be seen: where it leaves the outline, or passes
+/// in front of another limb, it is cut (as near there as 1/1000 of the step between its points);
+/// no run ever jumps.
+ViewProjection projectRunsFromView(const SurfaceIndex& index, const View& view,
+                                   std::span<const Eigen::Vector2d> points);
+
 }  // namespace toile

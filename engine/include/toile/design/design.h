@@ -6,12 +6,14 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <variant>
 #include <vector>
 
 #include "toile/core/content_hash.h"
 #include "toile/core/units.h"
+#include "toile/curve/geodesic.h"
 #include "toile/curve/subdivision.h"
 #include "toile/curve/view.h"
 #include "toile/mesh/surface_point.h"
@@ -86,11 +88,11 @@ struct OnStylingCurve {
   UnknownKeys unknown{};
   friend bool operator==(const OnStylingCurve&, const OnStylingCurve&) = default;
 };
-/// A plane, through a landmark or at an offset along its normal. It means the one loop of its
-/// section that passes the landmark; at an offset, the longest.
+/// A plane, through a landmark or a point of the model, or at an offset along its normal. It means
+/// the one loop of its section that passes the landmark or point; at an offset, the longest.
 struct SectionPlane {
   Eigen::Vector3d normal{0, 0, 1};
-  std::variant<Length, AtLandmark> through = Length();
+  std::variant<Length, AtLandmark, ModelPoint> through = Length();
   UnknownKeys unknown{};
   friend bool operator==(const SectionPlane&, const SectionPlane&) = default;
 };
@@ -128,6 +130,7 @@ using Place = std::variant<ModelPoint, AtLandmark, OnModelCurve, OnStylingCurve,
 struct SmoothWay {
   std::vector<Place> controls;
   SubdivisionRule rule = SubdivisionRule::Auto;
+  std::vector<std::size_t> corners{};  ///< indices of sharp controls, ascending
   UnknownKeys unknown{};
   friend bool operator==(const SmoothWay&, const SmoothWay&) = default;
 };
@@ -136,6 +139,7 @@ struct ViewWay {
   View view;
   std::vector<Eigen::Vector2d> controls;
   SubdivisionRule rule = SubdivisionRule::Auto;
+  std::vector<std::size_t> corners{};  ///< indices of sharp controls, ascending
   UnknownKeys unknown{};
   UnknownKeys unknownOfView{};
   friend bool operator==(const ViewWay&, const ViewWay&) = default;
@@ -315,6 +319,12 @@ struct PlacedCurve {
 /// model
 ///   has another connectivity than the design's and the design holds surface points.
 Result<std::vector<PlacedCurve>> placeCurves(const Design& design, const ReferenceModel& model);
+
+/// The same for some of the curves, by id, and those that they hang on; for editing, with a linker
+/// of that model's mesh that is kept. The result has the order of the ids.
+Result<std::vector<PlacedCurve>> placeCurves(const Design& design, const ReferenceModel& model,
+                                             std::span<const std::string> ids,
+                                             GeodesicLinker& linker);
 
 /// One place on the model; `placed` are the curves that OnStylingCurve may name.
 Result<SurfacePoint> resolvePlace(const Place& place, const ReferenceModel& model,

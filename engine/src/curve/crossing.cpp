@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/curve/crossing.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace toile {
+
+namespace {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+/// Segments as good as parallel: the sine of their angle in weights.
+constexpr double kParallel = 1e-12;
+/// How far past its ends a segment may be met, in parts of itself: rounding of a touching end.
+constexpr double kPastEnd = 1e-9;
+
+struct Arcs {
+  Arcs(const Mesh& mesh, const SurfacePath& path) {
+    start.push_back(0);
+    for (std::size_t i = 0; i < path.faceOfSegment.size(); ++i) {
+      const Vector3d a = position(mesh, path.points[i]);
+      const Vector3d b = position(mesh, path.points[(i + 1) % path.points.size()]);
+      start.push_back(start.back() + (b - a).norm());
+    }
+  }
+  [[nodiscard]] double at(std::size_t segment, double t) const {
+    return start[segment] + t * (start[segment + 1] - start[segment]);
+  }
+  std::vector<double> start;
+};
+
+class Finder {
+ public:
+  Finder(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b)
+      : mesh_(mesh), a_(a), b_(b), arcA_(mesh, a), arcB_(mesh, b), isSelf_(&a == &b) {}
+
+  std::vector<PathMeeting> find() {
+    std::unordered_map<FaceId, std::vector<std::size_t>> segmentsOfB;
+    std::unordered_map<VertexId, std::vector<std::size_t>> pointsOfB;
+    for (std::size_t j = 0; j < b_.faceOfSegment.size(); ++j) {
+      // A segment along an edge lies in the faces on both sides.
+      for (const FaceId f : facesOf(j)) segmentsOfB[f].push_back(j);
+    }
+    for (std::size_t j = 0; j < b_.points.size(); ++j) {
+      if (const auto* v = std::get_if<VertexId>(&b_.points[j].at)) pointsOfB[*v].push_back(j);
+    }
+    for (std::size_t i = 0; i < a_.faceOfSegment.size(); ++i) {
+      const auto in = segmentsOfB.find(a_.faceOfSegment[i]);
+      if (in == segmentsOfB.end()) continue;
+      for (const std::size_t j : in->second) meet(i, j, a_.faceOfSegment[i]);
+    }
+    // Paths may touch at a vertex without a common face.
+    for (std::size_t i = 0; i < a_.points.size(); ++i) {
+      const auto* v = std::get_if<VertexId>(&a_.points[i].at);
+      const auto on = v ? pointsOfB.find(*v) : pointsOfB.end();
+      if (on == pointsOfB.end()) continue;
+      for (const std::size_t j : on->second) {
+        if (!isSelf_ || i + 1 < j) add(arcA_.start[i], arcB_.start[j], a_.points[i]);
+      }
+    }
+    return merged();
+  }
+
+ private:
+  [[nodiscard]] std::vector<FaceId> facesOf(std::size_t j) const {
+    std::vector<FaceId> both{b_.faceOfSegment[j]};
+    const SurfacePoint& p = b_.points[j];
+    const SurfacePoint& q = b_.points[(j + 1) % b_.points.size()];
+    for (const FaceId f : toile::facesOf(mesh_, p)) {
+      if (f != both.front() && touches(mesh_, q, f)) both.push_back(f);
+    }
+    return both;
+  }
+
+  void meet(std::size_t i, std::size_t j, FaceId face) {
+    if (isSelf_) {
+      const std::size_t count = a_.faceOfSegment.size();
+      if (j <= i + 1 || (a_.closed && i == 0 && j + 1 == count)) return;
+    }
+    const SurfacePoint& p = a_.points[i];
+    const SurfacePoint& p2 = a_.points[(i + 1) % a_.points.size()];
+    const SurfacePoint& q = b_.points[j];
+    const SurfacePoint& q2 = b_.points[(j + 1) % b_.points.size()];
+    const auto weights = [&](const SurfacePoint& s) { return barycentricIn(mesh_, s, face); };
+    const auto flat = [&](const SurfacePoint& s) -> Vector2d { return weights(s).head<2>(); };
+    const auto cross = [](const Vector2d& u, const Vector2d& v) {
+      return u.x() * v.y() - u.y() * v.x();
+    };
+    const Vector2d u = flat(p2) - flat(p), v = flat(q2) - flat(q), w = flat(q) - flat(p);
+    const double determinant = cross(u, v);
+    if (std::abs(determinant) <= kParallel * u.norm() * v.norm()) {
+      // On one line: the ends of the common part.
+      if (std::abs(cross(u, w)) > 1e-9 * u.norm()) return;
+      const auto onOther = [&](const SurfacePoint& s, bool ofA, double own) {
+        const Vector2d& d = ofA ? v : u;
+        const Vector2d from = flat(s) - (ofA ? flat(q) : flat(p));
+        const double t = d.squaredNorm() > 0 ? from.dot(d) / d.squaredNorm() : -1;
+        if (t < -kPastEnd || t > 1 + kPastEnd) return;
+        const double other = std::clamp(t, 0.0, 1.0);
+        if (ofA) {
+          add(arcA_.at(i, own), arcB_.at(j, other), s);
+        } else {
+          add(arcA_.at(i, other), arcB_.at(j, own), s);
+        }
+      };
+      onOther(p, true, 0);
+      onOther(p2, true, 1);
+      onOther(q, false, 0);
+      onOther(q2, false, 1);
+      return;
+    }
+    const double s = cross(w, v) / determinant, t = cross(w, u) / determinant;
+    if (s < -kPastEnd || s > 1 + kPastEnd || t < -kPastEnd || t > 1 + kPastEnd) return;
+    const double onA = std::clamp(s, 0.0, 1.0), onB = std::clamp(t, 0.0, 1.0);
+    add(arcA_.at(i, onA), arcB_.at(j, onB), pointNear(p, p2, q, q2, onA, i, j, onB, face));
+  }
+
+  /// A point of a path where the meeting is as good as there, else the place between.
+  [[nodiscard]] SurfacePoint pointNear(const SurfacePoint& p, const SurfacePoint& p2,
+                                       const SurfacePoint& q, const SurfacePoint& q2, double s,
+                                       std::size_t i, std::size_t j, double t, FaceId face) const {
+    const double lengthA = arcA_.start[i + 1] - arcA_.start[i];
+    const double lengthB = arcB_.start[j + 1] - arcB_.start[j];
+    if (t * lengthB < kSameMeeting) return q;
+    if ((1 - t) * lengthB < kSameMeeting) return q2;
+    if (s * lengthA < kSameMeeting) return p;
+    if ((1 - s) * lengthA < kSameMeeting) return p2;
+    return makeSurfacePoint(
+        mesh_, face, (1 - s) * barycentricIn(mesh_, p, face) + s * barycentricIn(mesh_, p2, face));
+  }
+
+  void add(double a, double b, const SurfacePoint& point) { found_.push_back({a, b, point}); }
+
+  std::vector<PathMeeting> merged() {
+    const auto distance = [](double x, double y, const Arcs& arcs, bool closed) {
+      const double d = std::abs(x - y);
+      return closed ? std::min(d, arcs.start.back() - d) : d;
+    };
+    std::stable_sort(found_.begin(), found_.end(),
+                     [](const PathMeeting& x, const PathMeeting& y) { return x.a < y.a; });
+    std::vector<PathMeeting> out;
+    for (const PathMeeting& m : found_) {
+      const bool isKnown = std::any_of(out.begin(), out.end(), [&](const PathMeeting& o) {
+        return distance(m.a, o.a, arcA_, a_.closed) < kSameMeeting &&
+               distance(m.b, o.b, arcB_, b_.closed) < kSameMeeting;
+      });
+      if (!isKnown) out.push_back(m);
+    }
+    return out;
+  }
+
+  const Mesh& mesh_;
+  const SurfacePath& a_;
+  const SurfacePath& b_;
+  Arcs arcA_, arcB_;
+  bool isSelf_;
+  std::vector<PathMeeting> found_;
+};
+
+}  // namespace
+
+std::vector<PathMeeting> findMeetings(const Mesh& mesh, const SurfacePath& first,
+                                      const SurfacePath& second) {
+  return Finder(mesh, first, second).find();
+}
+
+std::vector<PathMeeting> findSelfMeetings(const Mesh& mesh, const SurfacePath& path) {
+  return Finder(mesh, path, path).find();
+}
+
+PathFoot nearestOnPath(const Mesh& mesh, const SurfacePath& path, const Vector3d& place) {
+  const Arcs arcs(mesh, path);
+  PathFoot best{0, std::numeric_limits<double>::infinity()};
+  for (std::size_t i = 0; i < path.faceOfSegment.size(); ++i) {
+    const Vector3d a = position(mesh, path.points[i]);
+    const Vector3d d = position(mesh, path.points[(i + 1) % path.points.size()]) - a;
+    const double square = d.squaredNorm();
+    const double t = square > 0 ? std::clamp((place - a).dot(d) / square, 0.0, 1.0) : 0.0;
+    const double distance = (a + t * d - place).norm();
+    if (distance < best.distance) best = {arcs.at(i, t), distance};
+  }
+  return best;
+}
+
+}  // namespace toile

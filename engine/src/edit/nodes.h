@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "edit/reshape.h"
+#include "edit/sketch.h"
+
+namespace toile::detail {
+
+/// A data point of a curve that an edit has moved.
+struct MovedNode {
+  SurfacePoint from;
+  SurfacePoint to;
+  bool isDragged = false;  ///< taken by hand, not carried along
+};
+
+/// Keeps crossings shared after curve `id` was changed: curves that end at a moved point end at its
+/// new place; one that passes through a point taken by hand goes with it; one that was crossed
+/// elsewhere gets the new crossing as a data point, and so does `curve`. Only curves with data
+/// points are looked at: others follow by themselves.
+Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve,
+                         const std::vector<MovedNode>& moved);
+
+/// The stretch of a curve around a data point, up to the next control points or shared points
+/// (`isHeld`) on both sides, as knots; the point itself goes to `to`.
+std::vector<Knot> knotsAround(const WorkCurve& curve, std::size_t data, const SurfacePoint& to,
+                              const std::vector<bool>& isHeld);
+
+}  // namespace toile::detail
