@@ -54,7 +54,13 @@ Result<Wish> readWish(const BodyOptions& options) {
     return refusal("childlike must be from 0 (adult) to 1 (a child of about five)");
   }
   wish.form.masculine = options.masculine;
-  for (const auto& [measure, length] : options.measures) wish.given[measure] = length.mm();
+  for (const auto& [measure, length] : options.measures) {
+    if (!(length.mm() > 0 && std::isfinite(length.mm()))) {
+      return refusal(fmt::format("{} {} is no length of a body",
+                                 bodyMeasures()[indexOf(measure)].name, toString(length)));
+    }
+    wish.given[measure] = length.mm();
+  }
   const auto [height, isStandard] = wish.given.emplace(
       BodyMeasure::Height,
       kStandardHeightFemale + (kStandardHeightMale - kStandardHeightFemale) * options.masculine);

@@ -15,8 +15,8 @@ namespace {
 /// its highest bit: 1 along the diagonal from its first to its third corner. Chosen once for the
 /// larger angles on a few different bodies, and frozen.
 constexpr std::string_view kDiagonals =
-    "f07fcfe3fe3c487c025c3c3fd0e00100c200fc00000003c70c2e001f07f07ff3801f31d07c7f3fc7"
-    "fc0286003ef07f81fc07c07e07e0fc0f03f03e03e03c33fffc71c0fc0fc0fc0fc0fc1702fe3";
+    "f07fcff3f838487c001c3c3fd0f00100c3e0fc0000000347639e401f0ff07ff3801f31d07c7f3fc7"
+    "fc0386001ef03f81fc0fc07e07e0f80f03f03e03e03c33ffec31c0fc0fc0fc0fc0fc17007e3";
 
 bool isCutFromFirstCorner(std::size_t quad) {
   const char digit = kDiagonals[quad / 4];

@@ -481,7 +481,7 @@ class Builder {
                about(-15, neck), neckSideZ, about(blend(10, 13.5), neck), neckBackZ, 2.1, 2.1});
     const double yh = -30;
     const auto in = [&](double y) { return yh + (y - yh) * head; };
-    setTilted(kThroatRow, {mix(about(-46, neck), in(-54), 0.5), headZ(-0.02),
+    setTilted(kThroatRow, {mix(about(-46, neck), in(-66), 0.6), headZ(-0.02),
                            mix(blend(30, 36) * throat, 33 * head, 0.5), in(-22), headZ(0.09), in(8),
                            headZ(0.2), 2.0, 2.1});
     setTilted(kChinRow, {in(-84), headZ(0.04), blend(36, 38) * head, in(-30), headZ(0.18), in(14),

@@ -89,12 +89,13 @@ Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
         adviseDarts(piece, *pattern.flats[i], {.unfold = options.unfold}, progress);
     if (!proposals) return proposals.error().during("piece \"" + piece.name + "\"");
     if (proposals->empty()) {
-      findings.push_back({"no-dart-helps",
-                          fmt::format("piece \"{}\": {:.2f} % mean area error is left where {:.3g} % "
-                                      "is wanted; no dart or cut helps by a tenth",
-                                      piece.name, 100 * pattern.flats[i]->meanAreaError,
-                                      options.autoDart->percent()),
-                          {Element::piece(piece.id)}});
+      findings.push_back(
+          {"no-dart-helps",
+           fmt::format("piece \"{}\": {:.2f} % mean area error is left where {:.3g} % "
+                       "is wanted; no dart or cut helps by a tenth",
+                       piece.name, 100 * pattern.flats[i]->meanAreaError,
+                       options.autoDart->percent()),
+           {Element::piece(piece.id)}});
       continue;
     }
     const DartProposal& best = proposals->front();
@@ -109,19 +110,20 @@ Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
                             (mirror != i || !liesOnPlane(piece, best.path, *model.symmetry));
     if (isMirrored) {
       StylingCurve image;
-      image.id = freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam",
-                                    pattern.cut.pieces[mirror].id));
+      image.id =
+          freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam", pattern.cut.pieces[mirror].id));
       image.name = "proposed for " + pattern.cut.pieces[mirror].name;
       image.kind = design.curves.back().kind;
       image.mirrorOf = id;
       design.curves.push_back(std::move(image));
       done.insert(mirror);
     }
-    findings.push_back({"auto-dart",
-                        fmt::format("piece \"{}\": \"{}\"{}: {}; mean area error {:.2f} -> {:.2f} %",
-                                    piece.name, id, isMirrored ? " and its mirror image" : "",
-                                    describe(best), 100 * best.errorBefore, 100 * best.errorAfter),
-                        {Element::piece(piece.id), Element::curve(id)}});
+    findings.push_back(
+        {"auto-dart",
+         fmt::format("piece \"{}\": \"{}\"{}: {}; mean area error {:.2f} -> {:.2f} %", piece.name,
+                     id, isMirrored ? " and its mirror image" : "", describe(best),
+                     100 * best.errorBefore, 100 * best.errorAfter),
+         {Element::piece(piece.id), Element::curve(id)}});
   }
   if (added) pattern.document.design = std::make_shared<const Design>(std::move(design));
   return added;

@@ -8,13 +8,14 @@
 #include <chrono>
 #include <cmath>
 #include <cstdlib>
-#include <fstream>
 #include <numbers>
 #include <random>
 #include <set>
 
 #include "support/result_printing.h"
+#include "support/test_data.h"
 #include "toile/body/sizes.h"
+#include "toile/core/file.h"
 #include "toile/mesh/mesh_check.h"
 #include "toile/mesh/mesh_file.h"
 
@@ -22,6 +23,8 @@ namespace toile {
 namespace {
 
 using ::testing::HasSubstr;
+
+constexpr const char* kConnectivity = "804bc98dd6a520ae0f4efd8741c4cddd";
 
 std::string described(const BodyOptions& options) {
   std::string text = "--form " + toString(Ratio::of(options.masculine));
@@ -163,6 +166,124 @@ TEST(Body, IsSoundForRandomMeasures) {
   }
   std::cout << trials << " bodies, the slowest in " << slowest << " s, at most " << 100 * narrowest
             << " % of triangles below 20 degrees\n";
+}
+
+// Frozen for ever: designs hold places on it by vertex and face.
+TEST(Body, KeepsItsConnectivity) {
+  const Result<ReferenceModel> woman = makeBody({});
+  ASSERT_TRUE(woman) << woman.error();
+  EXPECT_EQ(woman->mesh->vertexCount(), 19842U);
+  EXPECT_EQ(woman->mesh->faceCount(), 39680U);
+  EXPECT_EQ(woman->mesh->connectivityHash().hex(), kConnectivity);
+  BodyOptions seated;
+  seated.masculine = 1;
+  seated.posture = Posture::Seated;
+  const Result<ReferenceModel> man = makeBody(seated);
+  ASSERT_TRUE(man) << man.error();
+  EXPECT_EQ(man->mesh->connectivityHash(), woman->mesh->connectivityHash());
+}
+
+TEST(Body, MeetsTheMeasuresOfTheReadme) {
+  BodyOptions options;
+  options.measures = {{BodyMeasure::Height, Length::mm(1720)},
+                      {BodyMeasure::Chest, Length::mm(920)},
+                      {BodyMeasure::Waist, Length::mm(740)},
+                      {BodyMeasure::Hip, Length::mm(960)}};
+  const Result<ReferenceModel> model = makeBody(options);
+  ASSERT_TRUE(model) << model.error();
+  expectMeasuresMet(options, *model);
+  // Two ways agree: the tape and the named curves.
+  const std::vector<Length> measured = measureBody(*model->mesh);
+  for (const auto& [measure, curve] : {std::pair{BodyMeasure::Chest, "bust_girth"},
+                                       {BodyMeasure::Waist, "waist_girth"},
+                                       {BodyMeasure::Thigh, "thigh_girth_r"},
+                                       {BodyMeasure::ArmLength, "arm_outer_r"}}) {
+    EXPECT_NEAR(length(*model->mesh, model->curves.at(curve)),
+                measured[static_cast<std::size_t>(measure)].mm(), 1e-6)
+        << curve;
+  }
+  const Eigen::Vector3d size = model->mesh->boxMax() - model->mesh->boxMin();
+  EXPECT_NEAR(size.z(), 1720, 1);
+}
+
+// As a tape would lie.
+TEST(Body, HasLevelGirthsAndPairedNames) {
+  const Result<ReferenceModel> model = makeBody({});
+  ASSERT_TRUE(model) << model.error();
+  for (const char* name : {"hip_girth", "high_hip_girth", "waist_girth", "thigh_girth_l"}) {
+    double low = 1e9, high = 0;
+    for (const SurfacePoint& point : model->curves.at(name).points) {
+      low = std::min(low, position(*model->mesh, point).z());
+      high = std::max(high, position(*model->mesh, point).z());
+    }
+    EXPECT_LT(high - low, 8) << name;
+  }
+  for (const auto& [name, path] : model->curves) {
+    EXPECT_TRUE(isValid(*model->mesh, path)) << name;
+    if (!name.ends_with("_l")) continue;
+    const std::string other = name.substr(0, name.size() - 1) + "r";
+    ASSERT_TRUE(model->curves.contains(other)) << other;
+    EXPECT_NEAR(length(*model->mesh, path), length(*model->mesh, model->curves.at(other)), 1e-9);
+  }
+}
+
+// A place that exists on the bodies of the test data is here under the same name, on the same side.
+TEST(Body, UsesTheNamesOfTheTestData) {
+  TOILE_TEST_DATA_OR_SKIP(mesh, "bodies/female_average.ply");
+  TOILE_TEST_DATA_OR_SKIP(curves, "bodies/curves.json");
+  TOILE_TEST_DATA_OR_SKIP(landmarks, "bodies/landmarks.json");
+  const Result<MeshFile> file = readMesh(mesh, {.unit = FileUnit::Millimetre});
+  ASSERT_TRUE(file) << file.error();
+  const auto text = [](const std::filesystem::path& path) { return readFile(path).value(); };
+  const auto theirs = parseModelCurves(file->mesh, text(curves), "curves.json");
+  const auto places = parseLandmarks(file->mesh, text(landmarks), "landmarks.json");
+  ASSERT_TRUE(theirs && places);
+  const Result<ReferenceModel> body = makeBody({});
+  ASSERT_TRUE(body) << body.error();
+  for (const auto& [name, path] : *theirs) {
+    ASSERT_TRUE(body->curves.contains(name)) << name;
+    const SurfacePath& ours = body->curves.at(name);
+    EXPECT_EQ(ours.closed, path.closed) << name;
+    if (name.ends_with("_l")) {
+      EXPECT_GT(position(*body->mesh, ours.points.front()).x(), -1) << name;
+    }
+  }
+  const std::set<std::string> fingers{"thumb_tip", "index_tip", "ring_tip", "little_tip"};
+  for (const auto& [name, point] : *places) {
+    const std::string place = name.substr(0, name.find_last_of('_'));
+    if (fingers.contains(place)) continue;
+    ASSERT_TRUE(body->landmarks.contains(name)) << name;
+    // In thousandths of the height the places are near: nothing is named for something else.
+    const double height = position(*body->mesh, body->landmarks.at(name)).z() / 1680;
+    EXPECT_NEAR(height, position(file->mesh, point).z() / 1650, 0.035) << name;
+  }
+}
+
+TEST(Body, RefusesWhatIsImpossibleAndNamesTheNearest) {
+  BodyOptions options;
+  options.measures[BodyMeasure::Height] = Length::mm(900);
+  const Result<ReferenceModel> small = makeBody(options);
+  ASSERT_FALSE(small);
+  EXPECT_EQ(small.error().code, ErrorCode::InvalidArgument);
+  EXPECT_THAT(small.error().message, HasSubstr("height 900 mm"));
+  EXPECT_THAT(small.error().message, HasSubstr("nearest: 1000 mm"));
+
+  options.measures = {{BodyMeasure::Neck, Length::mm(900)}};
+  const Result<ReferenceModel> thick = makeBody(options);
+  ASSERT_FALSE(thick);
+  EXPECT_THAT(thick.error().message, HasSubstr("neck 900 mm is not possible"));
+  // The nearest value that it tells is possible.
+  const std::string message = thick.error().message;
+  const double nearest = std::stod(message.substr(message.rfind("nearest: ") + 9));
+  options.measures = {{BodyMeasure::Neck, Length::mm(nearest)}};
+  EXPECT_TRUE(makeBody(options));
+
+  options.measures = {{BodyMeasure::Waist, Length::mm(std::nan(""))}};
+  EXPECT_FALSE(makeBody(options));
+  options.measures = {{BodyMeasure::Chest, Length::mm(900)}, {BodyMeasure::Waist, Length::mm(-5)}};
+  const Result<ReferenceModel> negative = makeBody(options);
+  ASSERT_FALSE(negative);
+  EXPECT_THAT(negative.error().message, HasSubstr("waist -5mm"));
 }
 
 }  // namespace

@@ -11,7 +11,7 @@ namespace toile {
 
 /// A row of points of the piece as a curve of the design, linked the shortest way.
 [[nodiscard]] StylingCurve makeCurveOnModel(const Piece& piece, const Mesh& model,
-                                            const std::vector<SurfacePoint>& points,
-                                            std::string id, std::string name, CurveKind kind);
+                                            const std::vector<SurfacePoint>& points, std::string id,
+                                            std::string name, CurveKind kind);
 
 }  // namespace toile
