@@ -18,7 +18,8 @@ test::ProgramResult body(std::vector<std::string> words) {
 TEST(BodyCommand, WritesABodyThatMeasuresWhatWasAskedFor) {
   const test::TemporaryFolder folder;
   const std::string path = folder.path() / "b.ply";
-  const test::ProgramResult result = body({"--chest", "920mm", "--waist", "74cm", "-o", path, "--json"});
+  const test::ProgramResult result =
+      body({"--chest", "920mm", "--waist", "74cm", "-o", path, "--json"});
   ASSERT_EQ(result.status, 0) << result.err;
   const nlohmann::json json = nlohmann::json::parse(result.out);
   EXPECT_NEAR(json["bodies"][0]["measuresMm"]["chest"].get<double>(), 920, 2);

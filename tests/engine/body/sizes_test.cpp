@@ -58,7 +58,8 @@ TEST(BodySizes, RefuseDamagedTablesByLine) {
   EXPECT_THAT(message("chest\n84cm\n"), HasSubstr("one of them \"size\""));
   EXPECT_THAT(message("size,chest\nS,84cm,3\n"), HasSubstr("line 2: 3 cells"));
   EXPECT_THAT(message("size,chest\nS,84\n"), HasSubstr("line 2"));
-  EXPECT_THAT(message("size,chest\nS,84cm\nS,85cm\n"), HasSubstr("line 3: size \"S\" stands twice"));
+  EXPECT_THAT(message("size,chest\nS,84cm\nS,85cm\n"),
+              HasSubstr("line 3: size \"S\" stands twice"));
   EXPECT_THAT(message("size,chest\n"), HasSubstr("no size"));
   EXPECT_THAT(message(""), HasSubstr("no size"));
 }
