@@ -270,8 +270,8 @@ class Parser {
 
 const JsonValue* JsonValue::find(std::string_view key) const {
   const auto found =
-      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.first == key; });
-  return found == members.end() ? nullptr : &found->second;
+      std::find_if(members.begin(), members.end(), [&](const auto& m) { return m.key == key; });
+  return found == members.end() ? nullptr : &found->value;
 }
 
 Result<JsonValue> parseJson(std::string_view text, const std::string& file,

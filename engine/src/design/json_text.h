@@ -11,6 +11,8 @@
 
 namespace toile {
 
+struct JsonMember;
+
 /// A JSON value that remembers where in the text it stands. Why not nlohmann::json: it keeps
 /// neither the line of a value nor its text, which errors and unknown keys need.
 struct JsonValue {
@@ -20,11 +22,16 @@ struct JsonValue {
   double number = 0;
   std::string string;
   std::vector<JsonValue> items;
-  std::vector<std::pair<std::string, JsonValue>> members;  ///< in the order of the text
-  std::string_view text;                                   ///< the value's part of the text
-  std::size_t line = 1;                                    ///< where it begins
+  std::vector<JsonMember> members;  ///< in the order of the text
+  std::string_view text;            ///< the value's part of the text
+  std::size_t line = 1;             ///< where it begins
 
   [[nodiscard]] const JsonValue* find(std::string_view key) const;
+};
+
+struct JsonMember {
+  std::string key;
+  JsonValue value;
 };
 
 struct JsonLimits {
