@@ -59,7 +59,7 @@ Eigen::VectorXd hipShares(bool both) {
 Eigen::VectorXd kneeShares() {
   const ControlNet& net = controlNet();
   Eigen::VectorXd control = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(net.vertexCount()));
-  static constexpr std::array<double, 5> kAround{0.03, 0.24, 0.52, 0.82, 0.98};  // rows 3 to 7
+  static constexpr std::array<double, 5> kAround{0.05, 0.27, 0.52, 0.77, 0.95};  // rows 3 to 7
   for (std::size_t row = kMidThighRow; row <= kToeRow; ++row) {
     const double share = row < kMidThighRow + kAround.size() ? kAround[row - kMidThighRow] : 1;
     for (std::size_t spoke = 0; spoke < kLegSpokes; ++spoke) {
