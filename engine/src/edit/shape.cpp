@@ -167,6 +167,16 @@ void openRing(Grip& grip, std::size_t& handle) {
                                     grip.handles.begin());
 }
 
+/// The stretch of a curve of the document, or of the curve that it mirrors.
+Result<Grip> gripOf(Sketch& sketch, const Sketch::Target& target, const std::string& curve,
+                    const Stretch& stretch) {
+  Result<WorkCurve> work = sketch.load(target.id);
+  if (!work) return work.error();
+  Result<Grip> grip = take(sketch.mesh(), *std::move(work), stretch);
+  if (!grip) return grip.error().during("curve \"" + curve + "\"");
+  return grip;
+}
+
 }  // namespace
 
 Result<std::vector<Handle>> handlesOf(const Document& document, const std::string& curve,
@@ -174,10 +184,8 @@ Result<std::vector<Handle>> handlesOf(const Document& document, const std::strin
   Sketch sketch(document);
   const auto target = sketch.targetOf(curve);
   if (!target) return target.error();
-  Result<WorkCurve> work = sketch.load(target->id);
-  if (!work) return work.error();
-  Result<Grip> grip = take(sketch.mesh(), *std::move(work), stretch);
-  if (!grip) return grip.error().during("curve \"" + curve + "\"");
+  Result<Grip> grip = gripOf(sketch, *target, curve, stretch);
+  if (!grip) return grip.error();
   const std::vector<double> arcs = detail::arcsOf(sketch.mesh(), grip->curve);
   const double all = arcs[grip->curve.linkCount()];
   double turnedArc = 0;
@@ -292,10 +300,8 @@ Result<CurveDrag> CurveDrag::begin(const Document& document, const std::string& 
   Sketch sketch(document);
   const auto target = sketch.targetOf(curve);
   if (!target) return target.error();
-  Result<WorkCurve> work = sketch.load(target->id);
-  if (!work) return work.error();
-  Result<Grip> grip = take(sketch.mesh(), *std::move(work), stretch);
-  if (!grip) return grip.error().during("curve \"" + curve + "\"");
+  Result<Grip> grip = gripOf(sketch, *target, curve, stretch);
+  if (!grip) return grip.error();
   if (handle >= grip->handles.size()) {
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("the stretch has {} handles; there is no handle {}",

@@ -270,11 +270,8 @@ class PatchBuilder {
   Piece piece_;
 };
 
-}  // namespace
-
-std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain>& chains,
-                          const std::map<std::string, double>& targets, const Piece& piece,
-                          const FlatPiece& flat) {
+/// Units, then `v` of the surface and `vt` of the plane.
+std::string objVertices(const Mesh& mesh, const FlatPiece& flat) {
   std::string out = "# toile-units: mm\n";
   const auto append = std::back_inserter(out);
   for (const Eigen::Vector3d& p : mesh.positions()) {
@@ -283,6 +280,16 @@ std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain
   for (const Eigen::Vector2d& p : flat.position.values()) {
     fmt::format_to(append, "vt {} {}\n", p.x(), p.y());
   }
+  return out;
+}
+
+}  // namespace
+
+std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain>& chains,
+                          const std::map<std::string, double>& targets, const Piece& piece,
+                          const FlatPiece& flat) {
+  std::string out = objVertices(mesh, flat);
+  const auto append = std::back_inserter(out);
   for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
     const Triangle& v = mesh.triangles()[f];
     const Triangle& vt = piece.mesh->triangles()[f];
@@ -309,14 +316,8 @@ std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain
 std::string writePatchObj(const SymmetricPiece& symmetric, const FlatPiece& flat) {
   const Piece& piece = symmetric.piece;
   const Mesh& mesh = *piece.mesh;
-  std::string out = "# toile-units: mm\n";
+  std::string out = objVertices(mesh, flat);
   const auto append = std::back_inserter(out);
-  for (const Eigen::Vector3d& p : mesh.positions()) {
-    fmt::format_to(append, "v {} {} {}\n", p.x(), p.y(), p.z());
-  }
-  for (const Eigen::Vector2d& p : flat.position.values()) {
-    fmt::format_to(append, "vt {} {}\n", p.x(), p.y());
-  }
   for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
     const Triangle& t = mesh.triangles()[f];
     if (piece.sourceFace[FaceId(f)].index() != f) {
