@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "fit/judge.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+#include "fit/segments.h"
+#include "mesh/bounding_tree.h"
+#include "mesh/triangle_queries.h"
+#include "toile/core/parallel.h"
+#include "toile/mesh/mesh_check.h"
+
+namespace toile::fitting {
+namespace {
+
+/// A point of the fit farther than this from the scan, of the diagonal, has no scan near it.
+constexpr double kMissing = 0.006;
+
+struct Foot {
+  std::uint32_t face = 0;
+  double distance = 0;
+};
+
+std::vector<Foot> feetOn(const Mesh& mesh, const std::vector<Eigen::Vector3d>& points) {
+  const detail::BoundingTree tree(mesh);
+  std::vector<Foot> feet(points.size());
+  constexpr std::size_t kChunk = 1024;
+  parallelFor((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
+    for (std::size_t i = chunk * kChunk; i < std::min(points.size(), (chunk + 1) * kChunk); ++i) {
+      double best = std::numeric_limits<double>::infinity();
+      tree.visitNear(points[i], [&](FaceId face) {
+        const auto& [a, b, c] = mesh.vertices(face);
+        const Eigen::Vector3d w = detail::closestWeights(points[i], mesh.position(a),
+                                                         mesh.position(b), mesh.position(c));
+        const double squared = (w[0] * mesh.position(a) + w[1] * mesh.position(b) +
+                                w[2] * mesh.position(c) - points[i])
+                                   .squaredNorm();
+        if (squared < best || (squared == best && face.index() < feet[i].face)) {
+          best = squared;
+          feet[i].face = face.index();
+        }
+        return best;
+      });
+      feet[i].distance = std::sqrt(best);
+    }
+  });
+  return feet;
+}
+
+class Judge {
+ public:
+  explicit Judge(const Judged& fit)
+      : fit_(fit), diagonal_((fit.mesh.boxMax() - fit.mesh.boxMin()).norm()) {}
+
+  FitReport run() {
+    measureScan();
+    measureFit();
+    measureRegions();
+    countFaults();
+    report_.scale = fit_.placement.similarity.scale;
+    report_.placementMargin = fit_.placement.margin;
+    weighReasons();
+    return std::move(report_);
+  }
+
+ private:
+  void measureScan() {
+    feet_ = feetOn(fit_.mesh, fit_.target.points);
+    double total = 0, stray = 0;
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      const double area = fit_.target.area[i];
+      total += area;
+      if (isStray(i)) {
+        stray += area;
+        continue;
+      }
+      distances_.push_back(feet_[i].distance);
+      areas_.push_back(area);
+    }
+    report_.strayShare = total > 0 ? stray / total : 1;
+    report_.scanToFit = summarise(distances_, areas_);
+  }
+
+  [[nodiscard]] bool isStray(std::size_t i) const {
+    return feet_[i].distance > fit_.limits.strayDistance.value() * diagonal_;
+  }
+
+  void measureFit() {
+    shape_ = makeShape(fit_.mesh.triangles(), fit_.mesh.positions());
+    const std::size_t count = shape_.positions.size();
+    isMissing_.assign(count, 0);
+    std::vector<Eigen::Vector3d> back(count);
+    std::vector<double> distances(count);
+    for (std::size_t v = 0; v < count; ++v) {
+      const Eigen::Vector3d& p = shape_.positions[v];
+      const KdTree::Neighbour near = fit_.target.tree.nearest(p);
+      const Eigen::Vector3d& n = fit_.target.normals[near.point];
+      const double above = n.dot(p - fit_.target.points[near.point]);
+      distances[v] = std::abs(above);
+      back[v] = p - above * n;
+      isMissing_[v] = std::sqrt(near.squaredDistance) > kMissing * diagonal_ ? 1 : 0;
+    }
+    const std::vector<Foot> feet = feetOn(fit_.mesh, back);
+    std::vector<double> kept, areas, trips;
+    double missing = 0;
+    for (std::size_t v = 0; v < count; ++v) {
+      if (isMissing_[v] != 0) {
+        missing += shape_.area[v];
+        continue;
+      }
+      kept.push_back(distances[v]);
+      areas.push_back(shape_.area[v]);
+      // The way along the surface: what is left of the way to the vertex after going back.
+      const auto& [a, b, c] = fit_.mesh.vertices(FaceId(feet[v].face));
+      const Eigen::Vector3d w = detail::closestWeights(
+          back[v], fit_.mesh.position(a), fit_.mesh.position(b), fit_.mesh.position(c));
+      trips.push_back((w[0] * fit_.mesh.position(a) + w[1] * fit_.mesh.position(b) +
+                       w[2] * fit_.mesh.position(c) - shape_.positions[v])
+                          .norm());
+    }
+    report_.fitToScan = summarise(kept, areas);
+    report_.roundTrip = summarise(trips, areas);
+    report_.missingShare = missing / shape_.totalArea;
+  }
+
+  void measureRegions() {
+    const bool isBody = !fit_.segmentOfVertex.empty();
+    const std::size_t regions = isBody ? bodySegments().size() : 1;
+    std::vector<std::vector<double>> distances(regions), areas(regions);
+    std::vector<double> total(regions, 0.0), missing(regions, 0.0);
+    for (std::size_t i = 0; i < feet_.size(); ++i) {
+      if (isStray(i)) continue;
+      const std::uint32_t v = fit_.mesh.vertices(FaceId(feet_[i].face))[0].index();
+      const std::size_t r = isBody ? fit_.segmentOfVertex[v] : 0;
+      distances[r].push_back(feet_[i].distance);
+      areas[r].push_back(fit_.target.area[i]);
+    }
+    for (std::size_t v = 0; v < shape_.area.size(); ++v) {
+      const std::size_t r = isBody ? fit_.segmentOfVertex[v] : 0;
+      total[r] += shape_.area[v];
+      if (isMissing_[v] != 0) missing[r] += shape_.area[v];
+    }
+    for (std::size_t r = 0; r < regions; ++r) {
+      report_.regions.push_back({isBody ? bodySegments()[r].name : "all",
+                                 summarise(distances[r], areas[r]),
+                                 total[r] > 0 ? missing[r] / total[r] : 0});
+    }
+  }
+
+  void countFaults() {
+    report_.flippedFaces = turnedFaces(fit_.mesh, fit_.mesh.positions(), fit_.expected).size();
+    report_.crossings = findCrossingFaces(fit_.mesh).size();
+  }
+
+  void add(double excess, std::string code, std::string message) {
+    if (!(excess > 1)) return;
+    reasons_.push_back({excess, {std::move(code), std::move(message), {}}});
+  }
+
+  void weighReasons() {
+    const FitLimits& limits = fit_.limits;
+    add(report_.strayShare / limits.strayShare.value(), "fit-stray-scan",
+        fmt::format("{:.0f} % of the scan lies more than {:.0f} mm from the fit: another kind of "
+                    "model, another posture, or more than one model in the file",
+                    100 * report_.strayShare, limits.strayDistance.value() * diagonal_));
+    add(report_.missingShare / limits.missingShare.value(), "fit-missing-scan",
+        fmt::format("for {:.0f} % of the model there is no scan{}; the scan is not whole",
+                    100 * report_.missingShare, worstRegions()));
+    add(report_.scanToFit.mean / (limits.meanDistance.value() * diagonal_), "fit-distance",
+        fmt::format("the scan lies {:.1f} mm from the fit on average; {:.1f} mm is the limit",
+                    report_.scanToFit.mean, limits.meanDistance.value() * diagonal_));
+    const double flipped = static_cast<double>(report_.flippedFaces) /
+                           static_cast<double>(fit_.mesh.faceCount());
+    add(flipped / limits.flippedShare.value(), "fit-flipped-faces",
+        fmt::format("{} triangles are turned inside out", report_.flippedFaces));
+    const double scale = report_.scale;
+    add(std::max(limits.leastScale / scale, scale / limits.mostScale), "fit-size",
+        fmt::format("the scan is {:.2f} times as large as the template: another unit, or another "
+                    "kind of model",
+                    scale));
+    std::stable_sort(reasons_.begin(), reasons_.end(),
+                     [](const auto& a, const auto& b) { return a.first > b.first; });
+    for (auto& [excess, reason] : reasons_) report_.reasons.push_back(std::move(reason));
+  }
+
+  /// " (worst: left shank, left foot)" of regions that mostly are not there.
+  [[nodiscard]] std::string worstRegions() const {
+    std::string names;
+    for (const FitRegion& region : report_.regions) {
+      if (region.missingShare < 0.5 || region.name == "all") continue;
+      names += (names.empty() ? " (" : ", ") + region.name;
+    }
+    return names.empty() ? "" : names + ")";
+  }
+
+  const Judged& fit_;
+  double diagonal_;
+  FitReport report_;
+  Shape shape_;
+  std::vector<Foot> feet_;
+  std::vector<char> isMissing_;
+  std::vector<double> distances_, areas_;
+  std::vector<std::pair<double, Finding>> reasons_;
+};
+
+}  // namespace
+
+DistanceSummary summarise(const std::vector<double>& distances,
+                          const std::vector<double>& weights) {
+  DistanceSummary summary;
+  if (distances.empty()) return summary;
+  std::vector<std::size_t> order(distances.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  std::sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) {
+    return distances[a] != distances[b] ? distances[a] < distances[b] : a < b;
+  });
+  double total = 0, sum = 0;
+  for (const std::size_t i : order) {
+    total += weights[i];
+    sum += weights[i] * distances[i];
+  }
+  summary.mean = total > 0 ? sum / total : 0;
+  summary.largest = distances[order.back()];
+  summary.median = summary.percentile95 = summary.largest;
+  double below = 0;
+  bool isMedianFound = false;
+  for (const std::size_t i : order) {
+    below += weights[i];
+    if (!isMedianFound && below >= 0.5 * total) {
+      summary.median = distances[i];
+      isMedianFound = true;
+    }
+    if (below >= 0.95 * total) {
+      summary.percentile95 = distances[i];
+      break;
+    }
+  }
+  return summary;
+}
+
+FitReport judge(const Judged& fit) {
+  return Judge(fit).run();
+}
+
+}  // namespace toile::fitting

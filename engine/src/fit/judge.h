@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "fit/placement.h"
+#include "fit/target.h"
+#include "fit/untangle.h"
+#include "toile/fit/fit.h"
+
+namespace toile::fitting {
+
+struct Judged {
+  const Mesh& mesh;  ///< the fit
+  const Target& target;
+  const Placement& placement;
+  const Expectation& expected;
+  const std::vector<std::uint32_t>& segmentOfVertex;  ///< or empty
+  const FitLimits& limits;
+};
+
+/// Distances, turned and crossing faces, and whether they keep the limits.
+[[nodiscard]] FitReport judge(const Judged& fit);
+
+[[nodiscard]] DistanceSummary summarise(const std::vector<double>& distances,
+                                        const std::vector<double>& weights);
+
+}  // namespace toile::fitting

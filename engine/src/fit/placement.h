@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Geometry>
+
+#include "fit/surface.h"
+#include "fit/target.h"
+
+namespace toile::fitting {
+
+/// Rotation, one scale, shift.
+struct Similarity {
+  Eigen::Matrix3d rotation = Eigen::Matrix3d::Identity();
+  double scale = 1;
+  Eigen::Vector3d shift = Eigen::Vector3d::Zero();
+  [[nodiscard]] Eigen::Vector3d apply(const Eigen::Vector3d& p) const {
+    return scale * (rotation * p) + shift;
+  }
+  [[nodiscard]] Eigen::Vector3d undo(const Eigen::Vector3d& p) const {
+    return rotation.transpose() * (p - shift) / scale;
+  }
+};
+
+/// The one that brings `from` nearest to `to` in the weighted least squares sense.
+/// @see Umeyama, "Least-Squares Estimation of Transformation Parameters Between Two Point
+///   Patterns", IEEE PAMI 13(4), 1991.
+[[nodiscard]] Similarity bestSimilarity(const std::vector<Eigen::Vector3d>& from,
+                                        const std::vector<Eigen::Vector3d>& to,
+                                        const std::vector<double>& weights);
+
+struct Placement {
+  Similarity similarity;  ///< template to scan
+  double score = 0;       ///< 0 = lies on it, 1 = nothing is near; of the best placement
+  double margin = 0;      ///< score of the second best, over this
+  /// Score of the best placement of the template's mirror image.
+  double mirrorScore = 0;
+  bool scanIsInsideOut = false;  ///< its normals point against the template's
+};
+
+/// Places the template on the scan from any start: principal axes both ways round, then iterated
+/// closest points from each, with scale.
+/// @see Besl and McKay, "A Method for Registration of 3-D Shapes", IEEE PAMI 14(2), 1992.
+[[nodiscard]] Placement place(const Shape& shape, const Target& target);
+
+}  // namespace toile::fitting

@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <Eigen/Core>
+#include <vector>
+
+#include "toile/mesh/mesh.h"
+
+namespace toile::fitting {
+
+/// How the shape should be locally, as its surroundings turn and stretch it.
+struct Expectation {
+  std::vector<Eigen::Vector3d> shape;   ///< untangled, of every vertex; anywhere
+  std::vector<Eigen::Matrix3d> linear;  ///< per vertex: what the surroundings do to it
+  std::vector<Eigen::Vector3d> normals;  ///< per face, unit
+};
+
+/// Faces whose outside points against the expected one.
+[[nodiscard]] std::vector<FaceId> turnedFaces(const Mesh& connectivity,
+                                              const std::vector<Eigen::Vector3d>& positions,
+                                              const Expectation& expected);
+
+/// Lays the surroundings of turned faces out anew, as much like the expected shape as their
+/// unchanged border lets them; a few rings more each time that this does not help.
+void untangle(const Mesh& connectivity, const Expectation& expected,
+              std::vector<Eigen::Vector3d>& positions);
+
+}  // namespace toile::fitting
