@@ -3,11 +3,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
 
 namespace toile::detail {
 
 namespace {
+
+constexpr double kMostSamples = 120;
+constexpr double kFewestSamples = 24;
+constexpr double kSpacingInEdges = 0.8;
 
 void appendBend(std::vector<double>& bends, double turn) {
   if (!bends.empty() && (bends.back() > 0) == (turn > 0)) {
@@ -41,6 +44,13 @@ int countInflections(const std::vector<double>& turns, bool closed, double least
   }
   if (bends.size() < 2) return 0;
   return static_cast<int>(closed ? bends.size() : bends.size() - 1);
+}
+
+std::size_t evenSampleCount(const Mesh& mesh, double length) {
+  const double wanted =
+      std::max(length / kMostSamples,
+               std::min(length / kFewestSamples, kSpacingInEdges * mesh.meanEdgeLength()));
+  return static_cast<std::size_t>(std::max(3.0, std::round(length / wanted)));
 }
 
 }  // namespace toile::detail

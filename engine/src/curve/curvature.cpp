@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "curve/bends.h"
+#include "curve/path_walk.h"
 #include "toile/core/assert.h"
 
 namespace toile {
@@ -52,35 +53,12 @@ std::vector<CurvatureSample> sampleCurvature(const Mesh& mesh, const SurfacePath
   const std::size_t total = path.closed ? count : count + 1;
   const double all = length(mesh, path);
   const double step = all / static_cast<double>(count);
-  // One walk along the path, where pointAtFraction() would begin again for every sample.
-  std::size_t segment = 0;
-  double before = 0;
-  const auto segmentLength = [&](std::size_t i) {
-    return (position(mesh, path.points[(i + 1) % path.points.size()]) -
-            position(mesh, path.points[i]))
-        .norm();
-  };
-  double span = segmentLength(0);
+  detail::PathWalk walk(mesh, path);
   for (std::size_t i = 0; i < total; ++i) {
     const double arc = step * static_cast<double>(i);
-    while (segment + 1 < path.faceOfSegment.size() && before + span < arc) {
-      before += span;
-      span = segmentLength(++segment);
-    }
     CurvatureSample sample;
     sample.arc = arc;
-    const double t = span > 0 ? std::clamp((arc - before) / span, 0.0, 1.0) : 0.0;
-    const FaceId face = path.faceOfSegment[segment];
-    const SurfacePoint& a = path.points[segment];
-    const SurfacePoint& b = path.points[(segment + 1) % path.points.size()];
-    if (i == 0) {
-      sample.point = path.points.front();
-    } else if (!path.closed && i == count) {
-      sample.point = path.points.back();
-    } else {
-      sample.point = makeSurfacePoint(
-          mesh, face, (1 - t) * barycentricIn(mesh, a, face) + t * barycentricIn(mesh, b, face));
-    }
+    sample.point = !path.closed && i == count ? path.points.back() : walk.at(arc);
     sample.position = position(mesh, sample.point);
     sample.normal = smoothNormal(mesh, sample.point);
     samples.push_back(std::move(sample));
@@ -107,17 +85,27 @@ std::vector<CurvatureSample> sampleCurvature(const Mesh& mesh, const SurfacePath
 }
 
 Restlessness measureRestlessness(const std::vector<CurvatureSample>& samples, bool closed,
-                                 Angle leastBend) {
+                                 Angle leastBend, std::span<const double> corners) {
   Restlessness result;
-  std::vector<double> turns;
   const std::size_t n = samples.size();
+  const double step = n > 1 ? samples[1].arc - samples[0].arc : 0;
+  const double all = step * static_cast<double>(n);  // of a closed path
+  std::vector<bool> isAtCorner(n, false);
   for (std::size_t i = 0; i < n; ++i) {
-    if (closed || i + 1 < n) {
-      result.variation += std::abs(samples[(i + 1) % n].curvature - samples[i].curvature);
+    for (const double corner : corners) {
+      double distance = std::abs(samples[i].arc - corner);
+      if (closed) distance = std::min(distance, all - distance);
+      isAtCorner[i] = isAtCorner[i] || distance < step;
+    }
+  }
+  std::vector<double> turns;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t next = (i + 1) % n;
+    if ((closed || i + 1 < n) && !isAtCorner[i] && !isAtCorner[next]) {
+      result.variation += std::abs(samples[next].curvature - samples[i].curvature);
     }
     const bool isEnd = !closed && (i == 0 || i + 1 == n);
-    const double step = n > 1 ? samples[1].arc - samples[0].arc : 0;
-    turns.push_back(isEnd ? 0.0 : samples[i].curvature * step);
+    turns.push_back(isEnd || isAtCorner[i] ? 0.0 : samples[i].curvature * step);
   }
   result.inflections = detail::countInflections(turns, closed, leastBend.radians());
   return result;

@@ -4,7 +4,10 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
+#include "curve/bends.h"
+#include "curve/path_walk.h"
 #include "toile/curve/curvature.h"
 
 namespace toile::detail {
@@ -13,64 +16,92 @@ using Eigen::Vector3d;
 
 namespace {
 
-/// Samples of a line: fine enough for its bends, coarser than the noise of the mesh.
-constexpr double kMostSamples = 120;
-constexpr double kFewestSamples = 24;
-constexpr double kSpacingInEdges = 0.8;
 /// Stops nearer than this to each other, or to an end, are one place, mm.
 constexpr double kSameStop = 1e-6;
+/// Part of a line's hold that acts along it.
+constexpr double kHoldAlong = 0.05;
+/// The nearest place of the old line is looked for among this many segments to both sides.
+constexpr std::ptrdiff_t kWindow = 8;
+
+TangentFrame someFrame(const Vector3d& normal) {
+  const Vector3d a = normal.unitOrthogonal();
+  return {a, normal.cross(a)};
+}
+
+double distanceToSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+  const Vector3d d = b - a;
+  const double square = d.squaredNorm();
+  const double t = square > 0 ? std::clamp((p - a).dot(d) / square, 0.0, 1.0) : 0.0;
+  return (a + t * d - p).norm();
+}
+
+/// The farthest that points lie from a polyline, each near its own index.
+double farthestFrom(const std::vector<Vector3d>& line, const std::vector<Vector3d>& points,
+                    bool closed) {
+  const auto n = static_cast<std::ptrdiff_t>(line.size());
+  double farthest = 0;
+  for (std::ptrdiff_t i = 0; i < n; ++i) {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (std::ptrdiff_t k = i - kWindow; k < i + kWindow; ++k) {
+      if (!closed && (k < 0 || k + 1 >= n)) continue;
+      const auto from = static_cast<std::size_t>((k % n + n) % n);
+      nearest = std::min(nearest, distanceToSegment(points[static_cast<std::size_t>(i)], line[from],
+                                                    line[(from + 1) % line.size()]));
+    }
+    farthest = std::max(farthest, nearest);
+  }
+  return farthest;
+}
 
 }  // namespace
 
 FairSamples::FairSamples(std::shared_ptr<const Mesh> mesh, const FairNetwork& network)
-    : mesh_(std::move(mesh)),
-      closest_(*mesh_),
-      unknownOfNode_(network.nodes.size(), -1),
-      frameOfNode_(network.nodes.size()) {
-  for (const FairNode& node : network.nodes) nodes_.push_back(node.point);
-  firstNodes_ = nodes_;
+    : mesh_(std::move(mesh)), closest_(*mesh_), unknownOfNode_(network.nodes.size(), -1) {
   std::vector<bool> isFixed;
-  for (const FairNode& node : network.nodes) isFixed.push_back(node.isFixed);
+  for (const FairNode& node : network.nodes) {
+    nodes_.push_back(node.point);
+    isFixed.push_back(node.isFixed);
+    frameOfNode_.push_back(someFrame(smoothNormal(*mesh_, node.point)));
+  }
+  firstNodes_ = nodes_;
   for (const FairLine& line : network.lines) {
     if (!line.isFixed) continue;
     for (const FairLine::Stop& stop : line.stops) isFixed[stop.node] = true;
   }
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Vector3d normal = smoothNormal(*mesh_, nodes_[i]);
-    const Vector3d a = normal.unitOrthogonal();
-    frameOfNode_[i] = {a, normal.cross(a), position(*mesh_, nodes_[i])};
     if (isFixed[i]) continue;
     unknownOfNode_[i] = unknowns_;
     unknowns_ += 2;
-    lineOfUnknown_.insert(lineOfUnknown_.end(), 2, -1);
   }
-  for (std::size_t i = 0; i < network.lines.size(); ++i) sampleLine(network.lines[i], i);
+  for (const FairLine& line : network.lines) sampleLine(line);
   turnFrames();
 }
 
-void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
+void FairSamples::sampleLine(const FairLine& line) {
   const Mesh& mesh = *mesh_;
   const double all = length(mesh, line.path);
-  const double wanted = std::max(
-      all / kMostSamples, std::min(all / kFewestSamples, kSpacingInEdges * mesh.meanEdgeLength()));
+  const double wanted = all / static_cast<double>(evenSampleCount(mesh, all));
   struct Mark {
     double arc;
     int node;
+    bool isCorner;
   };
   std::vector<Mark> marks;
   for (const FairLine::Stop& stop : line.stops) {
-    marks.push_back({std::clamp(stop.arc, 0.0, all), static_cast<int>(stop.node)});
+    marks.push_back({std::clamp(stop.arc, 0.0, all), static_cast<int>(stop.node), stop.isCorner});
   }
   std::sort(marks.begin(), marks.end(), [](const Mark& a, const Mark& b) { return a.arc < b.arc; });
   if (line.path.closed) {
-    if (marks.empty()) marks.push_back({0, -1});
-    marks.push_back({marks.front().arc + all, marks.front().node});
+    if (marks.empty()) marks.push_back({0, -1, false});
+    marks.push_back({marks.front().arc + all, marks.front().node, marks.front().isCorner});
   } else {
-    if (marks.empty() || marks.front().arc > kSameStop) marks.insert(marks.begin(), {0, -1});
-    if (all - marks.back().arc > kSameStop) marks.push_back({all, -1});
+    if (marks.empty() || marks.front().arc > kSameStop) marks.insert(marks.begin(), {0, -1, false});
+    if (all - marks.back().arc > kSameStop) marks.push_back({all, -1, false});
   }
   FairSampledLine sampled;
+  std::vector<double> steps;
   sampled.closed = line.path.closed;
+  PathWalk walk(mesh, line.path);
   for (std::size_t m = 0; m + 1 < marks.size(); ++m) {
     const double from = marks[m].arc, section = marks[m + 1].arc - from;
     const int count = std::max(1, static_cast<int>(std::lround(section / wanted)));
@@ -78,9 +109,11 @@ void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
       const double arc = from + section * k / count;
       FairSample sample;
       sample.node = k == 0 ? marks[m].node : -1;
-      sample.point = sample.node >= 0 ? nodes_[static_cast<std::size_t>(sample.node)]
-                                      : pointAtFraction(mesh, line.path, arc / all);
+      sample.isCorner = k == 0 && marks[m].isCorner;
+      sample.point =
+          sample.node >= 0 ? nodes_[static_cast<std::size_t>(sample.node)] : walk.at(arc);
       sampled.samples.push_back(sample);
+      steps.push_back(section / count);
     }
   }
   if (!line.path.closed) {
@@ -95,6 +128,8 @@ void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
   for (std::size_t i = 0; i < n; ++i) {
     FairSample& sample = sampled.samples[i];
     sample.start = sample.position = position(mesh, sample.point);
+    sample.normal = smoothNormal(mesh, sample.point);
+    sample.frame = someFrame(sample.normal);
     if (sample.node >= 0 || line.isFixed) continue;
     if (!line.path.closed) {
       const bool atStart =
@@ -103,12 +138,13 @@ void FairSamples::sampleLine(const FairLine& line, std::size_t index) {
                                         line.end == FairEnd::Clamped);
       if (atStart || atEnd) continue;
     }
-    sample.unknown = unknowns_++;
-    lineOfUnknown_.push_back(static_cast<int>(index));
+    sample.unknown = unknowns_;
+    unknowns_ += 2;
   }
   std::vector<SurfacePoint> first;
   for (const FairSample& sample : sampled.samples) first.push_back(sample.point);
   firstPoints_.push_back(std::move(first));
+  firstSteps_.push_back(std::move(steps));
   lines_.push_back(std::move(sampled));
 }
 
@@ -120,123 +156,188 @@ void FairSamples::turnFrames() {
       const std::size_t before = !line.closed && i == 0 ? i : (i + n - 1) % n;
       const std::size_t after = !line.closed && i + 1 == n ? i : (i + 1) % n;
       const Vector3d chord = line.samples[after].position - line.samples[before].position;
-      const Vector3d side = smoothNormal(*mesh_, sample.point).cross(chord);
-      if (side.norm() > 0) sample.side = side.normalized();
+      const Vector3d side = sample.normal.cross(chord);
+      if (!(side.norm() > 0)) continue;
+      sample.frame.b = side.normalized();
+      sample.frame.a = sample.frame.b.cross(sample.normal);
     }
   }
 }
 
-FairSamples::Turns FairSamples::turns() const {
+int FairSamples::unknownOf(const FairSample& sample) const {
+  return sample.node >= 0 ? unknownOfNode_[static_cast<std::size_t>(sample.node)] : sample.unknown;
+}
+
+const TangentFrame& FairSamples::basisOf(const FairSample& sample) const {
+  return sample.node >= 0 ? frameOfNode_[static_cast<std::size_t>(sample.node)] : sample.frame;
+}
+
+FairSamples::Turns FairSamples::turns(TurnModel model) const {
   Turns turns;
-  std::vector<Eigen::Triplet<double>> entries;
-  std::vector<double> constants;
-  for (const FairSampledLine& line : lines_) {
-    turns.firstRow.push_back(constants.size());
+  for (std::size_t l = 0; l < lines_.size(); ++l) {
+    const FairSampledLine& line = lines_[l];
     const std::size_t n = line.size();
+    std::vector<int>& rows = turns.rowOfSample.emplace_back(n, -1);
     for (std::size_t i = line.closed ? 0 : 1; i + (line.closed ? 0 : 1) < n; ++i) {
-      const FairSample& before = line.at(i + n - 1);
       const FairSample& here = line.at(i);
+      if (here.isCorner) continue;
+      const FairSample& before = line.at(i + n - 1);
       const FairSample& after = line.at(i + 1);
-      const double in = (here.position - before.position).norm();
-      const double out = (after.position - here.position).norm();
-      const int row = static_cast<int>(constants.size());
-      turns.step.push_back(0.5 * (in + out));
-      if (!(in > 0 && out > 0)) {
-        constants.push_back(0);
-        continue;
-      }
-      const Vector3d& side = here.side;
-      constants.push_back(side.dot((after.position - here.position) / out -
-                                   (here.position - before.position) / in));
+      const Vector3d in = here.position - before.position, out = after.position - here.position;
+      const bool isOwn = model == TurnModel::Own;
+      const double stepIn = isOwn ? in.norm() : firstSteps_[l][(i + n - 1) % n];
+      const double stepOut = isOwn ? out.norm() : firstSteps_[l][i];
+      if (!(stepIn > 0 && stepOut > 0)) continue;
+      const int row = static_cast<int>(turns.step.size());
+      rows[i] = row;
+      turns.step.push_back(0.5 * (stepIn + stepOut));
+      const Vector3d turn = out / stepOut - in / stepIn;
+      turns.constant.push_back(here.frame.a.dot(turn));
+      turns.constant.push_back(here.frame.b.dot(turn));
       const auto depend = [&](const FairSample& sample, double factor) {
-        if (sample.node >= 0) {
-          const auto node = static_cast<std::size_t>(sample.node);
-          if (unknownOfNode_[node] < 0) return;
-          entries.emplace_back(row, unknownOfNode_[node], factor * side.dot(frameOfNode_[node].a));
-          entries.emplace_back(row, unknownOfNode_[node] + 1,
-                               factor * side.dot(frameOfNode_[node].b));
-        } else if (sample.unknown >= 0) {
-          entries.emplace_back(row, sample.unknown, factor * side.dot(sample.side));
-        }
+        const int unknown = unknownOf(sample);
+        if (unknown < 0) return;
+        const TangentFrame& basis = basisOf(sample);
+        turns.entries.emplace_back(2 * row, unknown, factor * here.frame.a.dot(basis.a));
+        turns.entries.emplace_back(2 * row, unknown + 1, factor * here.frame.a.dot(basis.b));
+        turns.entries.emplace_back(2 * row + 1, unknown, factor * here.frame.b.dot(basis.a));
+        turns.entries.emplace_back(2 * row + 1, unknown + 1, factor * here.frame.b.dot(basis.b));
       };
-      depend(before, 1 / in);
-      depend(here, -1 / in - 1 / out);
-      depend(after, 1 / out);
+      depend(before, 1 / stepIn);
+      depend(here, -1 / stepIn - 1 / stepOut);
+      depend(after, 1 / stepOut);
     }
   }
-  turns.firstRow.push_back(constants.size());
-  turns.matrix.resize(static_cast<Eigen::Index>(constants.size()), unknowns_);
-  turns.matrix.setFromTriplets(entries.begin(), entries.end());
-  turns.constant = Eigen::Map<const Eigen::VectorXd>(constants.data(),
-                                                     static_cast<Eigen::Index>(constants.size()));
   return turns;
 }
 
-Eigen::SparseMatrix<double> FairSamples::variation(const Turns& turns) const {
+FairSamples::Variation FairSamples::variation(TurnModel model) const {
+  const Turns all = turns(model);
   std::vector<Eigen::Triplet<double>> entries;
   int row = 0;
   for (std::size_t l = 0; l < lines_.size(); ++l) {
-    const std::size_t first = turns.firstRow[l], end = turns.firstRow[l + 1];
-    const std::size_t count = end - first;
-    for (std::size_t i = 0; i + (lines_[l].closed ? 0 : 1) < count; ++i) {
-      const std::size_t a = first + i, b = first + (i + 1) % count;
-      const double between = 0.5 * (turns.step[a] + turns.step[b]);
-      const double weight = 1 / std::sqrt(between);
-      entries.emplace_back(row, static_cast<int>(a), -weight / turns.step[a]);
-      entries.emplace_back(row, static_cast<int>(b), weight / turns.step[b]);
-      ++row;
+    const FairSampledLine& line = lines_[l];
+    const std::size_t n = line.size();
+    for (std::size_t i = 0; i + (line.closed ? 0 : 1) < n; ++i) {
+      const int from = all.rowOfSample[l][i], to = all.rowOfSample[l][(i + 1) % n];
+      if (from < 0 || to < 0) continue;
+      // The next turn in the frame of this one, carried over the surface.
+      double cosine = 1, sine = 0;
+      if (model == TurnModel::Carried) {
+        const FairSample &here = line.at(i), &next = line.at(i + 1);
+        const Vector3d carried =
+            Eigen::Quaterniond::FromTwoVectors(here.normal, next.normal) * here.frame.a;
+        cosine = carried.dot(next.frame.a);
+        sine = carried.dot(next.frame.b);
+      }
+      const double stepFrom = all.step[static_cast<std::size_t>(from)];
+      const double stepTo = all.step[static_cast<std::size_t>(to)];
+      const double weight = 1 / std::sqrt(0.5 * (stepFrom + stepTo));
+      const double mine = -weight / stepFrom, theirs = weight / stepTo;
+      entries.emplace_back(row, 2 * from, mine);
+      entries.emplace_back(row, 2 * to, theirs * cosine);
+      entries.emplace_back(row, 2 * to + 1, theirs * sine);
+      entries.emplace_back(row + 1, 2 * from + 1, mine);
+      entries.emplace_back(row + 1, 2 * to, -theirs * sine);
+      entries.emplace_back(row + 1, 2 * to + 1, theirs * cosine);
+      row += 2;
     }
   }
-  Eigen::SparseMatrix<double> matrix(row, static_cast<Eigen::Index>(turns.step.size()));
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  return matrix;
+  const auto turnRows = static_cast<Eigen::Index>(all.constant.size());
+  Eigen::SparseMatrix<double> change(row, turnRows), turn(turnRows, unknowns_);
+  change.setFromTriplets(entries.begin(), entries.end());
+  turn.setFromTriplets(all.entries.begin(), all.entries.end());
+  return {change * turn, change * Eigen::Map<const Eigen::VectorXd>(all.constant.data(), turnRows)};
 }
 
 FairSamples::Hold FairSamples::hold(const std::vector<double>& strengthOfLine) const {
-  Hold hold{Eigen::VectorXd::Zero(unknowns_), Eigen::VectorXd::Zero(unknowns_)};
+  Hold hold{std::vector<Eigen::Matrix2d>(static_cast<std::size_t>(unknowns_ / 2),
+                                         Eigen::Matrix2d::Zero()),
+            Eigen::VectorXd::Zero(unknowns_)};
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     for (const FairSample& sample : lines_[l].samples) {
+      const int unknown = unknownOf(sample);
+      if (unknown < 0) continue;
+      const TangentFrame& basis = basisOf(sample);
       const double weight = strengthOfLine[l] * lines_[l].spacing;
-      if (sample.node >= 0) {
-        const int first = unknownOfNode_[static_cast<std::size_t>(sample.node)];
-        if (first < 0) continue;
-        hold.weight[first] += weight;
-        hold.weight[first + 1] += weight;
-        const Frame& frame = frameOfNode_[static_cast<std::size_t>(sample.node)];
-        hold.distance[first] = frame.a.dot(sample.position - frame.start);
-        hold.distance[first + 1] = frame.b.dot(sample.position - frame.start);
-      } else if (sample.unknown >= 0) {
-        hold.weight[sample.unknown] += weight;
-        hold.distance[sample.unknown] = sample.side.dot(sample.position - sample.start);
-      }
+      const Vector3d gone = sample.position - sample.start;
+      const auto add = [&](const Vector3d& direction, double factor) {
+        const Eigen::Vector2d inBasis(direction.dot(basis.a), direction.dot(basis.b));
+        hold.weight[static_cast<std::size_t>(unknown / 2)] +=
+            factor * weight * inBasis * inBasis.transpose();
+        hold.pull.segment<2>(unknown) -= factor * weight * direction.dot(gone) * inBasis;
+      };
+      add(sample.frame.a, kHoldAlong);
+      add(sample.frame.b, 1);
     }
   }
   return hold;
+}
+
+std::vector<Vector3d> FairSamples::placesAfter(std::size_t line,
+                                               const Eigen::VectorXd& unknowns) const {
+  std::vector<Vector3d> places;
+  for (const FairSample& sample : lines_[line].samples) {
+    const int unknown = unknownOf(sample);
+    Vector3d place = sample.position;
+    if (unknown >= 0) {
+      const TangentFrame& basis = basisOf(sample);
+      place += unknowns[unknown] * basis.a + unknowns[unknown + 1] * basis.b;
+    }
+    places.push_back(place);
+  }
+  return places;
+}
+
+std::vector<Vector3d> FairSamples::places(std::size_t line) const {
+  std::vector<Vector3d> places;
+  for (const FairSample& sample : lines_[line].samples) places.push_back(sample.position);
+  return places;
+}
+
+int FairSamples::inflections(std::size_t line, const std::vector<Vector3d>& places,
+                             double leastBend) const {
+  const FairSampledLine& sampled = lines_[line];
+  const std::size_t n = sampled.size();
+  std::vector<double> turns;
+  for (std::size_t i = sampled.closed ? 0 : 1; i + (sampled.closed ? 0 : 1) < n; ++i) {
+    if (sampled.samples[i].isCorner) continue;
+    const Vector3d in = places[i] - places[(i + n - 1) % n];
+    const Vector3d out = places[(i + 1) % n] - places[i];
+    turns.push_back(std::atan2(sampled.samples[i].normal.dot(in.cross(out)), in.dot(out)));
+  }
+  return countInflections(turns, sampled.closed, leastBend);
+}
+
+double FairSamples::deviation(std::size_t line, const std::vector<Vector3d>& places) const {
+  std::vector<Vector3d> first;
+  for (const FairSample& sample : lines_[line].samples) first.push_back(sample.start);
+  const bool closed = lines_[line].closed;
+  return std::max(farthestFrom(first, places, closed), farthestFrom(places, first, closed));
 }
 
 void FairSamples::move(const Eigen::VectorXd& unknowns) {
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
     const int first = unknownOfNode_[i];
     if (first < 0) continue;
-    Frame& frame = frameOfNode_[i];
-    const Vector3d place =
-        position(*mesh_, nodes_[i]) + unknowns[first] * frame.a + unknowns[first + 1] * frame.b;
-    nodes_[i] = closest_.find(place, nodes_[i]);
-    const Vector3d normal = smoothNormal(*mesh_, nodes_[i]);
-    frame.a = normal.unitOrthogonal();
-    frame.b = normal.cross(frame.a);
+    const TangentFrame& frame = frameOfNode_[i];
+    nodes_[i] = closest_.find(
+        position(*mesh_, nodes_[i]) + unknowns[first] * frame.a + unknowns[first + 1] * frame.b,
+        nodes_[i]);
+    frameOfNode_[i] = someFrame(smoothNormal(*mesh_, nodes_[i]));
   }
   for (FairSampledLine& line : lines_) {
     for (FairSample& sample : line.samples) {
+      if (unknownOf(sample) < 0) continue;
       if (sample.node >= 0) {
         sample.point = nodes_[static_cast<std::size_t>(sample.node)];
-      } else if (sample.unknown >= 0) {
-        const Vector3d place = sample.position + unknowns[sample.unknown] * sample.side;
-        sample.point = closest_.find(place, sample.point);
       } else {
-        continue;
+        sample.point = closest_.find(sample.position + unknowns[sample.unknown] * sample.frame.a +
+                                         unknowns[sample.unknown + 1] * sample.frame.b,
+                                     sample.point);
       }
       sample.position = position(*mesh_, sample.point);
+      sample.normal = smoothNormal(*mesh_, sample.point);
     }
   }
   turnFrames();
@@ -245,25 +346,17 @@ void FairSamples::move(const Eigen::VectorXd& unknowns) {
 void FairSamples::returnToStart() {
   nodes_ = firstNodes_;
   for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    const Vector3d normal = smoothNormal(*mesh_, nodes_[i]);
-    frameOfNode_[i].a = normal.unitOrthogonal();
-    frameOfNode_[i].b = normal.cross(frameOfNode_[i].a);
+    frameOfNode_[i] = someFrame(smoothNormal(*mesh_, nodes_[i]));
   }
   for (std::size_t l = 0; l < lines_.size(); ++l) {
     for (std::size_t i = 0; i < lines_[l].size(); ++i) {
-      lines_[l].samples[i].point = firstPoints_[l][i];
-      lines_[l].samples[i].position = lines_[l].samples[i].start;
+      FairSample& sample = lines_[l].samples[i];
+      sample.point = firstPoints_[l][i];
+      sample.position = sample.start;
+      sample.normal = smoothNormal(*mesh_, sample.point);
     }
   }
   turnFrames();
-}
-
-double FairSamples::deviation(std::size_t line) const {
-  double farthest = 0;
-  for (const FairSample& sample : lines_[line].samples) {
-    farthest = std::max(farthest, (sample.position - sample.start).norm());
-  }
-  return farthest;
 }
 
 }  // namespace toile::detail

@@ -17,14 +17,17 @@ namespace toile {
 namespace {
 
 using detail::FairSamples;
+using detail::TurnModel;
 using Eigen::VectorXd;
 
-/// Wavelengths that are tried: from this many samples on, each longer by the factor, up to the
-/// length of the line.
+/// Wavelengths that are tried: from this many samples on, each longer by the factor, up to so many
+/// lengths of the line.
 constexpr double kShortestInSamples = 4;
+constexpr double kLongestInLengths = 4;
 constexpr double kLadderFactor = 1.3;
 constexpr int kMaxRungs = 24;
-constexpr int kSteps = 4;      ///< Gauss-Newton steps on the surface
+constexpr int kWideSteps = 2;  ///< on the surface, in frames carried along
+constexpr int kFineSteps = 3;  ///< then in the line's own
 constexpr int kAttempts = 12;  ///< with other wavelengths: a line bends too often, or moved too far
 constexpr double kLeastBend = std::numbers::pi / 60;  ///< that counts as one: 3 degrees
 
@@ -35,41 +38,38 @@ double strengthOf(double wavelength) {
 /// The linear problem at one state of the samples, for any strengths.
 class Step {
  public:
-  explicit Step(const FairSamples& samples) : samples_(samples), turns_(samples.turns()) {
-    const Eigen::SparseMatrix<double> rows = samples.variation(turns_);
-    const Eigen::SparseMatrix<double> variation = rows * turns_.matrix;
-    normal_ = variation.transpose() * variation;
-    right_ = -(variation.transpose() * (rows * turns_.constant));
-    // Every diagonal entry exists, so that strengths only change values.
+  Step(const FairSamples& samples, TurnModel model) : samples_(samples) {
+    const FairSamples::Variation variation = samples.variation(model);
+    normal_ = variation.matrix.transpose() * variation.matrix;
+    right_ = -(variation.matrix.transpose() * variation.constant);
+    // Every entry of the holds exists, so that strengths only change values.
     std::vector<Eigen::Triplet<double>> zeros;
-    for (int i = 0; i < samples.unknownCount(); ++i) zeros.emplace_back(i, i, 0.0);
-    Eigen::SparseMatrix<double> diagonal(samples.unknownCount(), samples.unknownCount());
-    diagonal.setFromTriplets(zeros.begin(), zeros.end());
-    normal_ = (normal_ + diagonal).eval();
+    for (int i = 0; i < samples.unknownCount(); i += 2) {
+      for (const int row : {i, i + 1}) {
+        for (const int column : {i, i + 1}) zeros.emplace_back(row, column, 0.0);
+      }
+    }
+    Eigen::SparseMatrix<double> pairs(samples.unknownCount(), samples.unknownCount());
+    pairs.setFromTriplets(zeros.begin(), zeros.end());
+    normal_ = (normal_ + pairs).eval();
     solver_.analyzePattern(normal_);
   }
 
   VectorXd solve(const std::vector<double>& strengthOfLine) {
     const FairSamples::Hold hold = samples_.hold(strengthOfLine);
     Eigen::SparseMatrix<double> system = normal_;
-    for (Eigen::Index i = 0; i < system.rows(); ++i) system.coeffRef(i, i) += hold.weight[i];
+    for (Eigen::Index i = 0; i < system.rows(); i += 2) {
+      const Eigen::Matrix2d& weight = hold.weight[static_cast<std::size_t>(i / 2)];
+      for (Eigen::Index r = 0; r < 2; ++r) {
+        for (Eigen::Index c = 0; c < 2; ++c) system.coeffRef(i + r, i + c) += weight(r, c);
+      }
+    }
     solver_.factorize(system);
-    return solver_.solve(right_ - hold.weight.cwiseProduct(hold.distance));
-  }
-
-  [[nodiscard]] int inflections(const VectorXd& turns, std::size_t line) const {
-    const auto first = static_cast<Eigen::Index>(turns_.firstRow[line]);
-    const auto end = static_cast<Eigen::Index>(turns_.firstRow[line + 1]);
-    return detail::countInflections({turns.data() + first, turns.data() + end},
-                                    samples_.lines()[line].closed, kLeastBend);
-  }
-  [[nodiscard]] VectorXd turnsAfter(const VectorXd& unknowns) const {
-    return turns_.constant + turns_.matrix * unknowns;
+    return solver_.solve(right_ + hold.pull);
   }
 
  private:
   const FairSamples& samples_;
-  FairSamples::Turns turns_;
   Eigen::SparseMatrix<double> normal_;
   VectorXd right_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
@@ -79,8 +79,9 @@ class Step {
 double shortestWavelength(const detail::FairSampledLine& line) {
   return kShortestInSamples * line.spacing;
 }
+/// Beyond the length only the ends and crossings hold a line.
 double longestWavelength(const detail::FairSampledLine& line) {
-  return line.spacing * static_cast<double>(line.size());
+  return kLongestInLengths * line.spacing * static_cast<double>(line.size());
 }
 
 /// One wavelength for each line, from how its bends would fare on the linear model.
@@ -97,7 +98,7 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
     double farthest;
   };
   std::vector<std::vector<Rung>> ladder(lines.size());
-  Step step(samples);
+  Step step(samples, TurnModel::Carried);
   const auto rungOf = [&](std::size_t l, int k) {
     return shortestWavelength(lines[l]) * std::pow(kLadderFactor, k);
   };
@@ -110,16 +111,11 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
     }
     if (!isNeeded) break;
     const VectorXd unknowns = step.solve(strengths);
-    const VectorXd turns = step.turnsAfter(unknowns);
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (rungOf(l, k) > longestWavelength(lines[l])) continue;
-      double farthest = 0;
-      for (const detail::FairSample& sample : lines[l].samples) {
-        if (sample.unknown >= 0) {
-          farthest = std::max(farthest, std::abs(unknowns[sample.unknown]));
-        }
-      }
-      ladder[l].push_back({step.inflections(turns, l), farthest});
+      const auto places = samples.placesAfter(l, unknowns);
+      ladder[l].push_back(
+          {samples.inflections(l, places, kLeastBend), samples.deviation(l, places)});
     }
   }
   for (std::size_t l = 0; l < lines.size(); ++l) {
@@ -129,7 +125,7 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
     });
     rungs.erase(tooFar, rungs.end());
     // Bends longer than half of the line are meant, if nobody says which.
-    const double half = 0.5 * longestWavelength(lines[l]);
+    const double half = 0.5 * longestWavelength(lines[l]) / kLongestInLengths;
     int wanted = network.lines[l].inflections.value_or(0);
     for (std::size_t k = 0; !network.lines[l].inflections && k < rungs.size(); ++k) {
       if (k == 0 || rungOf(l, static_cast<int>(k)) <= half) wanted = rungs[k].inflections;
@@ -162,21 +158,26 @@ Result<FairedNetwork> fairNetwork(GeodesicLinker& linker, std::shared_ptr<const 
   }
   const auto& lines = samples.lines();
   std::vector<double> wavelengths = chooseWavelengths(samples, network, options);
+  std::vector<bool> isLimited(lines.size(), false);
   for (int attempt = 0; attempt < kAttempts; ++attempt) {
     if (attempt > 0) samples.returnToStart();
     std::vector<double> strengths;
     for (const double w : wavelengths) strengths.push_back(strengthOf(w));
-    for (int k = 0; k < kSteps; ++k) samples.move(Step(samples).solve(strengths));
-    const Step last(samples);
-    const VectorXd turns = last.turnsAfter(VectorXd::Zero(samples.unknownCount()));
+    for (int k = 0; k < kWideSteps + kFineSteps; ++k) {
+      const TurnModel model = k < kWideSteps ? TurnModel::Carried : TurnModel::Own;
+      samples.move(Step(samples, model).solve(strengths));
+    }
     bool isDone = true;
     for (std::size_t l = 0; l < lines.size(); ++l) {
       if (network.lines[l].isFixed) continue;
-      if (samples.deviation(l) > options.maxDeviation.mm()) {
-        wavelengths[l] /= kLadderFactor * kLadderFactor;
+      const auto places = samples.places(l);
+      const std::optional<int>& wanted = network.lines[l].inflections;
+      if (samples.deviation(l, places) > options.maxDeviation.mm()) {
+        wavelengths[l] /= kLadderFactor;
+        isLimited[l] = true;
         isDone = false;
-      } else if (!options.wavelength && network.lines[l].inflections &&
-                 last.inflections(turns, l) > *network.lines[l].inflections &&
+      } else if (!options.wavelength && wanted && !isLimited[l] &&
+                 samples.inflections(l, places, kLeastBend) > *wanted &&
                  wavelengths[l] * kLadderFactor <= longestWavelength(lines[l])) {
         wavelengths[l] *= kLadderFactor;
         isDone = false;
@@ -190,11 +191,16 @@ Result<FairedNetwork> fairNetwork(GeodesicLinker& linker, std::shared_ptr<const 
   for (std::size_t l = 0; l < lines.size(); ++l) {
     const FairLine& line = network.lines[l];
     FairedLine faired;
-    const auto measure = [&](const SurfacePath& path) {
-      const auto count = std::max<std::size_t>(3, lines[l].size() - (path.closed ? 0 : 1));
-      return measureRestlessness(sampleCurvature(*mesh, path, count), path.closed);
+    const auto measure = [&](const SurfacePath& path, const std::vector<double>& corners) {
+      const std::size_t count = detail::evenSampleCount(*mesh, length(*mesh, path));
+      return measureRestlessness(sampleCurvature(*mesh, path, count), path.closed,
+                                 Angle::degrees(3), corners);
     };
-    const Restlessness before = measure(line.path);
+    std::vector<double> cornersBefore, cornersAfter;
+    for (const FairLine::Stop& stop : line.stops) {
+      if (stop.isCorner) cornersBefore.push_back(stop.arc);
+    }
+    const Restlessness before = measure(line.path, cornersBefore);
     for (const detail::FairSample& sample : lines[l].samples) faired.points.push_back(sample.point);
     if (line.isFixed) {
       faired.path = line.path;
@@ -204,12 +210,21 @@ Result<FairedNetwork> fairNetwork(GeodesicLinker& linker, std::shared_ptr<const 
       faired.path = *std::move(path);
       faired.wavelength = Length::mm(wavelengths[l]);
     }
-    const Restlessness after = line.isFixed ? before : measure(faired.path);
+    double arc = 0;
+    for (std::size_t i = 0; i + 1 < faired.path.points.size() && !cornersBefore.empty(); ++i) {
+      for (const FairLine::Stop& stop : line.stops) {
+        const bool isHere = stop.isCorner && faired.path.points[i] == result.nodes[stop.node];
+        if (isHere) cornersAfter.push_back(arc);
+      }
+      arc += (position(*mesh, faired.path.points[i + 1]) - position(*mesh, faired.path.points[i]))
+                 .norm();
+    }
+    const Restlessness after = line.isFixed ? before : measure(faired.path, cornersAfter);
     faired.inflectionsBefore = before.inflections;
     faired.inflectionsAfter = after.inflections;
     faired.variationBefore = before.variation;
     faired.variationAfter = after.variation;
-    faired.deviation = Length::mm(samples.deviation(l));
+    faired.deviation = Length::mm(samples.deviation(l, samples.places(l)));
     result.lines.push_back(std::move(faired));
   }
   return result;

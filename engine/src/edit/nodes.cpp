@@ -2,6 +2,7 @@
 #include "edit/nodes.h"
 
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <limits>
 
@@ -14,21 +15,59 @@ namespace {
 /// Without controls or shared points nearby, a carried end takes this part of the curve along.
 constexpr double kCarriedPart = 0.4;
 
+std::uint64_t hashOf(const ModelPoint& point) {
+  std::uint64_t hash = point.at.index();
+  const auto mix = [&](std::uint64_t value) {
+    hash = (hash ^ value) * 0x9E3779B97F4A7C15U;
+    hash ^= hash >> 32U;
+  };
+  if (const auto* vertex = std::get_if<VertexId>(&point.at)) {
+    mix(vertex->index());
+  } else if (const auto* on = std::get_if<ModelPoint::OnEdge>(&point.at)) {
+    mix(on->tail.index());
+    mix(on->head.index());
+    mix(std::bit_cast<std::uint64_t>(on->t));
+  } else {
+    const auto& in = std::get<SurfacePoint::InFace>(point.at);
+    mix(in.face.index());
+    for (Eigen::Index k = 0; k < 3; ++k) mix(std::bit_cast<std::uint64_t>(in.barycentric[k]));
+  }
+  return hash;
+}
+
 /// Data points of a curve that other curves have too.
 std::vector<bool> sharedData(const Sketch& sketch, const std::string& id, const WorkCurve& curve) {
-  std::vector<bool> shared(curve.data.size(), false);
-  for (std::size_t i = 0; i < curve.data.size(); ++i) {
-    const ModelPoint point = toModelPoint(sketch.mesh(), curve.data[i]);
-    for (const StylingCurve& other : sketch.design().curves) {
-      if (other.id == id) continue;
-      shared[i] = shared[i] || std::find(other.dataPoints.begin(), other.dataPoints.end(), point) !=
-                                   other.dataPoints.end();
-    }
+  const DataPoints points(sketch.design());
+  std::vector<bool> shared;
+  for (const SurfacePoint& point : curve.data) {
+    const auto curves = points.curvesAt(toModelPoint(sketch.mesh(), point));
+    shared.push_back(std::any_of(curves.begin(), curves.end(), [&](std::size_t c) {
+      return sketch.design().curves[c].id != id;
+    }));
   }
   return shared;
 }
 
 }  // namespace
+
+DataPoints::DataPoints(const Design& design) : design_(design) {
+  for (std::size_t c = 0; c < design.curves.size(); ++c) {
+    const auto& data = design.curves[c].dataPoints;
+    for (std::size_t i = 0; i < data.size(); ++i) places_.emplace(hashOf(data[i]), std::pair{c, i});
+  }
+}
+
+std::vector<std::size_t> DataPoints::curvesAt(const ModelPoint& point) const {
+  std::vector<std::size_t> curves;
+  const auto [from, to] = places_.equal_range(hashOf(point));
+  for (auto it = from; it != to; ++it) {
+    const auto& [c, i] = it->second;
+    if (design_.curves[c].dataPoints[i] == point) curves.push_back(c);
+  }
+  std::sort(curves.begin(), curves.end());
+  curves.erase(std::unique(curves.begin(), curves.end()), curves.end());
+  return curves;
+}
 
 std::vector<Knot> knotsAround(const WorkCurve& curve, std::size_t data, const SurfacePoint& to,
                               const std::vector<bool>& isHeld) {

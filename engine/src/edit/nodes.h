@@ -1,10 +1,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <unordered_map>
+
 #include "edit/reshape.h"
 #include "edit/sketch.h"
 
 namespace toile::detail {
+
+/// Which curves of a design have a data point: how lines share their crossings.
+class DataPoints {
+ public:
+  explicit DataPoints(const Design& design);
+  /// Indices of the curves that have exactly this data point, ascending.
+  [[nodiscard]] std::vector<std::size_t> curvesAt(const ModelPoint& point) const;
+
+ private:
+  const Design& design_;
+  std::unordered_multimap<std::uint64_t, std::pair<std::size_t, std::size_t>> places_;
+};
 
 /// A data point of a curve that an edit has moved.
 struct MovedNode {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <limits>
 
-#include "support/meshes.h"
+#include "support/edit_support.h"
 #include "support/result_printing.h"
 #include "support/test_data.h"
 #include "toile/edit/draw.h"
@@ -23,16 +23,13 @@ namespace {
 using Eigen::Vector3d;
 
 Document torso() {
-  const Result<ReferenceModel> model = makeBuiltinModel("builtin:torso@1");
-  EXPECT_TRUE(model) << model.error();
-  return {std::make_shared<const Design>(), std::make_shared<const ReferenceModel>(*model)};
+  return test::documentOn("builtin:torso@1");
 }
-SurfacePoint near(const Document& document, const Vector3d& place) {
-  return document.model->index->closestPoint(place).point;
-}
-Vector3d placeOf(const Document& document, const SurfacePoint& point) {
-  return position(*document.model->mesh, point);
-}
+using test::curveOf;
+using test::near;
+using test::pathOf;
+using test::placeOf;
+
 /// A line down the left front of the torso, by five points.
 Document withLine(const Document& document, const std::string& id = "line") {
   std::vector<SurfacePoint> points;
@@ -45,17 +42,6 @@ Document withLine(const Document& document, const std::string& id = "line") {
   EXPECT_TRUE(drawn) << drawn.error();
   return drawn->document;
 }
-SurfacePath pathOf(const Document& document, const std::string& id) {
-  GeodesicLinker linker(document.model->mesh);
-  const auto placed = placeCurves(*document.design, *document.model, std::span(&id, 1), linker);
-  EXPECT_TRUE(placed) << placed.error();
-  return placed ? placed->front().path : SurfacePath{};
-}
-const StylingCurve& curveOf(const Document& document, const std::string& id) {
-  return *std::find_if(document.design->curves.begin(), document.design->curves.end(),
-                       [&](const StylingCurve& c) { return c.id == id; });
-}
-
 TEST(Drag, LeavesTheRestBitForBitAndKeepsTangents) {
   const Document before = withLine(torso());
   const auto all5 = handlesOf(before, "line");

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <span>
 #include <vector>
 
 #include "toile/core/units.h"
@@ -35,7 +36,10 @@ struct Restlessness {
   double variation = 0;  ///< total variation of geodesic curvature, 1/mm
 };
 /// @param leastBend a bend that turns the line by less does not count: noise of the mesh.
+/// @param corners where the line turns sharply on purpose, mm along it: what is nearer than a step
+///   of the samples does not count.
 [[nodiscard]] Restlessness measureRestlessness(const std::vector<CurvatureSample>& samples,
-                                               bool closed, Angle leastBend = Angle::degrees(3));
+                                               bool closed, Angle leastBend = Angle::degrees(3),
+                                               std::span<const double> corners = {});
 
 }  // namespace toile

@@ -21,8 +21,9 @@ struct FairLine {
   SurfacePath path;
   /// Where it passes through nodes of the network; any order. At an end: arc 0 or the length.
   struct Stop {
-    double arc = 0;        ///< mm
-    std::size_t node = 0;  ///< index into FairNetwork::nodes
+    double arc = 0;         ///< mm along the path
+    std::size_t node = 0;   ///< index into FairNetwork::nodes
+    bool isCorner = false;  ///< the line turns sharply here, and shall go on doing so
   };
   std::vector<Stop> stops;
   FairEnd start = FairEnd::Clamped;  ///< where there is no stop
@@ -58,7 +59,7 @@ struct FairedLine {
   Length wavelength;  ///< that was used; zero for a fixed line
   int inflectionsBefore = 0, inflectionsAfter = 0;
   double variationBefore = 0, variationAfter = 0;  ///< of geodesic curvature, 1/mm
-  Length deviation;                                ///< farthest that a sample moved
+  Length deviation;  ///< the farthest that old and new line are apart, either way
 };
 
 struct FairedNetwork {
@@ -70,10 +71,12 @@ struct FairedNetwork {
 /// they were. Points stay on the surface in every step; nodes are common unknowns, so lines that
 /// shared them still do, bit for bit.
 ///
-/// Each line is sampled evenly. Unknown is how far each sample moves sideways (two numbers for a
-/// node); minimised is the integral of (d kg / ds)^2 plus (2 pi / wavelength)^6 times the squared
-/// distance from the old line: a low-pass filter of sixth order. A few Gauss-Newton steps, each put
-/// on the surface by the nearest point on the same limb.
+/// Each line is sampled evenly; minimised is the integral of (d kg / ds)^2 plus (2 pi /
+/// wavelength)^6 times the squared distance sideways from the old line: a low-pass filter of sixth
+/// order. Ripples are taken out first, two steps in frames that are carried along the surface,
+/// where the problem is nearly linear however wildly a line winds; then a few Gauss-Newton steps in
+/// the line's own frames. Every step is put on the surface by the nearest point on the same limb. A
+/// node is held sideways by each of its lines, and may slide along a line that does not mind.
 ///
 /// @return CurveInvalid when a line is too short to have three samples, or everything is fixed.
 /// @par Cost  some dozen sparse factorisations of one row per sample, and the links

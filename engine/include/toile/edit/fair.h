@@ -30,11 +30,14 @@ struct FairedCurve {
 struct FairedDocument {
   Document document;
   std::vector<FairedCurve> curves;
+  std::vector<Finding> findings;
 };
 
 /// Fairs curves on the surface, all at once (curve/fairing.h). Crossings, among them and with
-/// curves that are not named, are shared before and after; the latter keep their place. Live mirror
-/// images follow.
+/// curves that are not named, are shared before and after; the latter keep their place. Where
+/// ripples let two lines meet three times and more within `maxDeviation`, they cross once (an even
+/// number: twice) afterwards. Corners stay corners, in their place unless they are crossings. Live
+/// mirror images follow, and halves that meet them keep doing so smoothly.
 /// @return CurveInvalid when everything is fixed, NameNotFound.
 Result<FairedDocument> fairCurves(const Document& document, std::span<const std::string> curves,
                                   const FairCurvesOptions& options = {});
