@@ -31,13 +31,24 @@ struct MakeOptions {
   std::optional<Ratio> autoDevelop{};
 };
 
-/// Flat pieces by content: what an edit did not touch is not solved again. Answers have no history:
-/// with or without a cache the bytes are the same. Not for use by two threads at once.
+/// Solved pieces by content: what an edit did not touch is not solved again. Answers have no
+/// history: with or without a cache the bytes are the same. Not for use by two threads at once.
 class PatternCache {
  public:
-  std::map<ContentHash, std::shared_ptr<const FlatPiece>> flats;
-  std::size_t solved = 0;  ///< pieces unfolded so far through this cache
-  std::size_t reused = 0;  ///< pieces taken from it
+  /// What became of a piece: a plane, with its processing if there was any, or why there is none.
+  struct Entry {
+    std::shared_ptr<const FlatPiece> flat;
+    std::shared_ptr<const DevelopedPiece> developed;
+    std::optional<Error> error;
+    std::size_t lastUsed = 0;  ///< the number of the pattern that used it last
+  };
+  std::map<ContentHash, Entry> entries;
+  std::size_t patterns = 0;  ///< made so far with this cache
+  std::size_t solved = 0;    ///< pieces unfolded so far through this cache
+  std::size_t reused = 0;    ///< pieces taken from it
+
+  /// Drops what none of the last so many patterns used.
+  void keepOfLast(std::size_t count);
 };
 
 /// Makes the pattern of a document. A piece that cannot be unfolded does not stop the others.

@@ -1,0 +1,320 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/stages.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <atomic>
+#include <set>
+
+#include "toile/core/content_hash.h"
+#include "toile/core/parallel.h"
+
+namespace toile::stages {
+namespace {
+
+// A cut can leave a piece that still is no disk (a trouser leg with its foot); each round opens
+// every such piece once more.
+constexpr int kMaxAutoCutRounds = 4;
+
+void tell(Progress* progress, const std::string& step) {
+  if (progress != nullptr) progress->step(step);
+}
+
+void append(std::vector<Finding>& all, const std::vector<Finding>& more) {
+  all.insert(all.end(), more.begin(), more.end());
+}
+
+/// Adds the proposed cuts of every piece that cannot lie flat. @return whether there were any
+Result<bool> addProposedCuts(Pattern& pattern, std::vector<Finding>& findings) {
+  Design design = *pattern.document.design;
+  std::set<std::string> known;
+  for (const StylingCurve& curve : design.curves) known.insert(curve.id);
+  bool added = false;
+  for (const Piece& piece : pattern.cut.pieces) {
+    if (!piece.include || topology(piece).canLieFlat()) continue;
+    const Result<std::vector<StylingCurve>> cuts = proposeCuts(piece, *pattern.document.model);
+    if (!cuts) return cuts.error().during(quoted(piece));
+    for (StylingCurve curve : *cuts) {
+      const std::string wanted = curve.id;
+      for (int n = 2; !known.insert(curve.id).second; ++n) {
+        curve.id = fmt::format("{}-{}", wanted, n);
+      }
+      findings.push_back({"auto-cut",
+                          fmt::format("{} could not lie flat and was cut open along \"{}\", the "
+                                      "shortest way; draw a seam to choose another place",
+                                      quoted(piece), curve.id),
+                          {Element::piece(piece.id), Element::curve(curve.id)}});
+      design.curves.push_back(std::move(curve));
+      added = true;
+    }
+  }
+  if (added) pattern.document.design = std::make_shared<const Design>(std::move(design));
+  return added;
+}
+
+std::string whyRefused(const UnfoldCheck& check) {
+  if (check.flippedFaces > 0) {
+    return fmt::format("{} of its triangles fold over in the plane", check.flippedFaces);
+  }
+  if (check.crossings > 0) {
+    return fmt::format("its lines cross each other {} times in the plane", check.crossings);
+  }
+  if (check.maxLengthError > 1e-9) {
+    return fmt::format("its lines miss their lengths by up to {:.1e} of their length",
+                       check.maxLengthError);
+  }
+  return fmt::format("its outline does not close by {:.1e} mm", check.maxClosureGap);
+}
+
+/// Rule 1 of lengths: the cut's edges own what the processing made of them.
+void takeProcessedTargets(Pattern& pattern) {
+  std::shared_ptr<RefinedMesh> refined;
+  for (std::size_t i = 0; i < pattern.developed.size(); ++i) {
+    if (!pattern.developed[i]) continue;
+    if (!refined) refined = std::make_shared<RefinedMesh>(*pattern.cut.refined);
+    std::vector<Wire>& wires = pattern.cut.pieces[i].wires;
+    for (std::size_t w = 0; w < wires.size(); ++w) {
+      if (isBoundary(wires[w].kind)) continue;
+      wires[w].targetLength = pattern.developed[i]->piece.wires[w].targetLength;
+      for (std::size_t e = 0; e < wires[w].cutEdges.size(); ++e) {
+        refined->cutEdges[wires[w].cutEdges[e].index()].targetLength = wires[w].targetLength[e];
+      }
+    }
+  }
+  if (refined) pattern.cut.refined = std::move(refined);
+}
+
+/// A processed piece as it comes from the cache, with the names and numbers that the piece has in
+/// this document.
+std::shared_ptr<const DevelopedPiece> named(const std::shared_ptr<const DevelopedPiece>& developed,
+                                            const Piece& piece) {
+  if (!developed) return nullptr;
+  auto own = std::make_shared<DevelopedPiece>(*developed);
+  Piece shaped = piece;
+  shaped.mesh = std::move(own->piece.mesh);
+  shaped.targetSides = std::move(own->piece.targetSides);
+  for (std::size_t w = 0; w < shaped.wires.size(); ++w) {
+    shaped.wires[w].targetLength = std::move(own->piece.wires[w].targetLength);
+  }
+  own->piece = std::move(shaped);
+  return own;
+}
+
+PatternCache::Entry solve(const Piece& piece, const UnfoldOptions& options,
+                          const std::optional<DevelopOptions>& processing, Progress* progress) {
+  PatternCache::Entry entry;
+  if (processing) {
+    Result<DevelopedPiece> developed = develop(piece, *processing, progress);
+    if (!developed) {
+      entry.error = developed.error();
+      return entry;
+    }
+    entry.flat = developed->flat;
+    if (developed->amount > 0 || !developed->findings.empty()) {
+      entry.developed = std::make_shared<const DevelopedPiece>(*std::move(developed));
+    }
+    return entry;
+  }
+  Result<FlatPiece> flat = unfold(piece, options, progress);
+  if (flat) {
+    entry.flat = std::make_shared<const FlatPiece>(*std::move(flat));
+  } else {
+    entry.error = flat.error();
+  }
+  return entry;
+}
+
+}  // namespace
+
+Error cancelled() {
+  return {ErrorCode::Cancelled, "stopped before the end; nothing was written", {}};
+}
+
+std::string quoted(const Piece& piece) {
+  return fmt::format("piece \"{}\"", piece.name.empty() ? piece.id : piece.name);
+}
+
+Result<void> placeAndCut(Pattern& pattern, Progress* progress) {
+  const Design& design = *pattern.document.design;
+  tell(progress, fmt::format("place {} curve{} on the model", design.curves.size(),
+                             design.curves.size() == 1 ? "" : "s"));
+  Result<std::vector<PlacedCurve>> curves = placeCurves(design, *pattern.document.model);
+  if (!curves) return curves.error();
+  if (isCancelled(progress)) return cancelled();
+  Result<CutResult> result = cut(pattern.document, *curves, progress);
+  if (!result) return result.error();
+  pattern.curves = std::move(*curves);
+  pattern.cut = std::move(*result);
+  return {};
+}
+
+Result<void> cutOpen(Pattern& pattern, Progress* progress) {
+  for (int round = 0; round < kMaxAutoCutRounds; ++round) {
+    const Result<bool> added = addProposedCuts(pattern, pattern.findings);
+    if (!added) return added.error();
+    if (!*added) break;
+    if (const Result<void> done = placeAndCut(pattern, progress); !done) return done.error();
+  }
+  return {};
+}
+
+std::vector<std::size_t> workOrder(const CutResult& cut) {
+  std::vector<std::size_t> order;
+  for (std::size_t i = 0; i < cut.pieces.size(); ++i) {
+    if (cut.pieces[i].include) order.push_back(i);
+  }
+  std::stable_sort(order.begin(), order.end(), [&cut](std::size_t a, std::size_t b) {
+    return cut.pieces[a].mesh->faceCount() > cut.pieces[b].mesh->faceCount();
+  });
+  return order;
+}
+
+std::optional<DevelopOptions> developOptions(const Pattern& pattern, const Piece& piece,
+                                             const MakeOptions& options) {
+  const PieceRecord* record = recordOf(*pattern.document.design, piece.id);
+  DevelopOptions develop;
+  develop.unfold = options.unfold;
+  if (record != nullptr && record->develop) {
+    const DevelopSetting& setting = *record->develop;
+    develop.maxAreaError = setting.maxAreaError;
+    if (setting.amount) develop.amount = setting.amount->value();
+    if (setting.gap) {
+      develop.outsideOf = pattern.document.model->index;
+      develop.gap = *setting.gap;
+    }
+    return develop;
+  }
+  if (!options.autoDevelop) return std::nullopt;
+  develop.maxAreaError = options.autoDevelop;
+  return develop;
+}
+
+ContentHash cacheKey(const ContentHash& piece, const UnfoldOptions& options,
+                     const std::optional<DevelopOptions>& develop) {
+  ContentHasher hasher;
+  hasher.add(piece)
+      .add(options.objective)
+      .add(options.weights)
+      .add(options.areaWeight)
+      .add(options.wireStiffness)
+      .add(options.maxSteps)
+      .add(options.keepSymmetry)
+      .add(develop.has_value());
+  if (develop) {
+    hasher.add(develop->maxAreaError.has_value())
+        .add(develop->maxAreaError ? develop->maxAreaError->value() : develop->amount)
+        .add(develop->maxSteps)
+        .add(develop->outsideOf != nullptr)
+        .add(develop->gap.mm());
+    if (develop->outsideOf) {
+      const Mesh& around = develop->outsideOf->mesh();
+      hasher.add(around.connectivityHash());
+      for (const Eigen::Vector3d& p : around.positions()) hasher.add(p.x()).add(p.y()).add(p.z());
+    }
+  }
+  return hasher.finish();
+}
+
+void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>& entries) {
+  const std::vector<Piece>& pieces = pattern.cut.pieces;
+  pattern.flats.assign(pieces.size(), nullptr);
+  pattern.failures.assign(pieces.size(), std::nullopt);
+  pattern.developed.assign(pieces.size(), nullptr);
+  for (const std::size_t i : workOrder(pattern.cut)) {
+    if (entries[i] == nullptr) continue;
+    const PatternCache::Entry& entry = *entries[i];
+    pattern.flats[i] = entry.flat;
+    pattern.developed[i] = named(entry.developed, pieces[i]);
+    if (entry.error) pattern.failures[i] = entry.error->during(quoted(pieces[i]));
+    if (!entry.flat) continue;
+    if (entry.developed) {
+      for (Finding finding : entry.developed->findings) {
+        finding.message = quoted(pieces[i]) + ": " + finding.message;
+        finding.where.push_back(Element::piece(pieces[i].id));
+        pattern.findings.push_back(std::move(finding));
+      }
+    }
+    for (Finding finding : entry.flat->findings) {
+      finding.message = quoted(pieces[i]) + ": " + finding.message;
+      pattern.findings.push_back(std::move(finding));
+    }
+    if (entry.flat->check.passes()) continue;
+    pattern.failures[i] =
+        Error{ErrorCode::NotConverged,
+              fmt::format("{} cannot be cut out: {}; move or remove a line inside it, or part it "
+                          "by a seam or a dart",
+                          quoted(pieces[i]), whyRefused(entry.flat->check)),
+              {Element::piece(pieces[i].id)}};
+    pattern.flats[i] = nullptr;
+  }
+  takeProcessedTargets(pattern);
+}
+
+void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
+                  Progress* progress) {
+  const std::vector<Piece>& pieces = pattern.cut.pieces;
+  const std::vector<std::size_t> order = workOrder(pattern.cut);
+  ++cache.patterns;
+  std::vector<ContentHash> keys(pieces.size());
+  std::vector<PatternCache::Entry> fresh(pieces.size());
+  std::vector<const PatternCache::Entry*> entries(pieces.size(), nullptr);
+  std::vector<std::optional<DevelopOptions>> processing(pieces.size());
+  for (const std::size_t i : order) {
+    processing[i] = developOptions(pattern, pieces[i], options);
+    keys[i] = cacheKey(contentHash(pieces[i]), options.unfold, processing[i]);
+    const auto found = cache.entries.find(keys[i]);
+    if (found == cache.entries.end()) continue;
+    found->second.lastUsed = cache.patterns;
+    entries[i] = &found->second;
+    ++cache.reused;
+  }
+
+  std::atomic<std::size_t> begun = 0;
+  parallelFor(order.size(), [&](std::size_t turn) {
+    const std::size_t i = order[turn];
+    const std::size_t number = ++begun;
+    if (entries[i] != nullptr || isCancelled(progress)) return;
+    tell(progress,
+         fmt::format("unfold {} ({} of {})", pieces[i].name.empty() ? pieces[i].id : pieces[i].name,
+                     number, order.size()));
+    fresh[i] = solve(pieces[i], options.unfold, processing[i], progress);
+  });
+  for (const std::size_t i : order) {
+    if (entries[i] != nullptr) continue;
+    ++cache.solved;
+    entries[i] = &fresh[i];
+    if (!fresh[i].flat && (!fresh[i].error || fresh[i].error->code == ErrorCode::Cancelled)) {
+      continue;
+    }
+    fresh[i].lastUsed = cache.patterns;
+    entries[i] = &cache.entries.insert_or_assign(keys[i], std::move(fresh[i])).first->second;
+  }
+  takeEntries(pattern, entries);
+}
+
+Result<void> finishPieces(Pattern& pattern, Progress* progress) {
+  tell(progress, "finish the pieces: allowance, notches, grain");
+  Result<std::vector<PatternPiece>> pieces =
+      finish(pattern.document, pattern.curves, pattern.cut, pattern.flats);
+  if (!pieces) return pieces.error();
+  pattern.pieces = std::move(*pieces);
+  pattern.pieceIndex.clear();
+  for (std::size_t i = 0; i < pattern.flats.size(); ++i) {
+    if (pattern.flats[i]) pattern.pieceIndex.push_back(static_cast<std::uint32_t>(i));
+  }
+  for (const PatternPiece& piece : pattern.pieces) append(pattern.findings, piece.findings);
+  return {};
+}
+
+Result<void> arrangePieces(Pattern& pattern, Progress* progress) {
+  tell(progress, "arrange them on the sheet");
+  Result<Layout> layout = arrange(*pattern.document.model, pattern.cut, pattern.flats,
+                                  pattern.pieces, pattern.pieceIndex);
+  if (!layout) return layout.error();
+  pattern.layout = std::move(*layout);
+  append(pattern.findings, pattern.layout.findings);
+  return {};
+}
+
+}  // namespace toile::stages

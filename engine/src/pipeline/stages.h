@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include "toile/pipeline.h"
+
+// The steps of makePattern(), each on a pattern that the steps before have filled.
+namespace toile::stages {
+
+[[nodiscard]] Error cancelled();
+/// What people call a piece in messages.
+[[nodiscard]] std::string quoted(const Piece& piece);
+
+/// Puts the curves on the model and cuts it; with `autoCut` opens what cannot lie flat.
+Result<void> placeAndCut(Pattern& pattern, Progress* progress);
+Result<void> cutOpen(Pattern& pattern, Progress* progress);
+
+/// Included pieces with the most faces first, so that the last one to end is a small one.
+[[nodiscard]] std::vector<std::size_t> workOrder(const CutResult& cut);
+/// How a piece is to be processed; nothing where it stays as it was cut.
+[[nodiscard]] std::optional<DevelopOptions> developOptions(const Pattern& pattern,
+                                                           const Piece& piece,
+                                                           const MakeOptions& options);
+/// What the plane of a piece is a function of.
+/// @param piece its contentHash()
+[[nodiscard]] ContentHash cacheKey(const ContentHash& piece, const UnfoldOptions& options,
+                                   const std::optional<DevelopOptions>& develop);
+
+/// Fills `flats`, `developed` and `failures` from entries, one per piece of the cut (null where
+/// there is none), with what they have to tell.
+void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>& entries);
+
+/// Unfolds all included pieces.
+void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
+                  Progress* progress);
+
+/// Makes pattern pieces of the pieces that have a plane.
+Result<void> finishPieces(Pattern& pattern, Progress* progress);
+Result<void> arrangePieces(Pattern& pattern, Progress* progress);
+
+}  // namespace toile::stages
