@@ -9,6 +9,7 @@
 #include "finish/notches.h"
 #include "finish/polygon.h"
 #include "finish/seam_net.h"
+#include "toile/core/parallel.h"
 #include "toile/finish/pattern_piece.h"
 
 namespace toile {
@@ -87,11 +88,12 @@ Result<std::vector<PatternPiece>> finish(
 
   const SeamNet net(work, cut);
   const std::vector<SewNotch> notches = chooseNotches(net, design.finish.notchSpacing.mm());
-  std::vector<PatternPiece> pattern;
-  for (std::uint32_t p = 0; p < work.size(); ++p) {
+  std::vector<PatternPiece> pattern(work.size());
+  parallelFor(work.size(), [&](std::size_t at) {
+    const auto p = static_cast<std::uint32_t>(at);
     const Piece& piece = *work[p].piece;
     const SewOutline& sew = work[p].sew;
-    PatternPiece out;
+    PatternPiece& out = pattern[p];
     out.id = piece.id;
     out.name = piece.name.empty() ? piece.id : piece.name;
     out.number = static_cast<int>(p) + 1;
@@ -115,8 +117,7 @@ Result<std::vector<PatternPiece>> finish(
     out.labelPosition = inmostPoint(sewLoops).position;
     out.grain = grainLine(sewLoops, out.labelPosition);
     out.label = labelLines(design, out);
-    pattern.push_back(std::move(out));
-  }
+  });
   return pattern;
 }
 

@@ -19,21 +19,30 @@ struct DirectedSide {
   bool fromTail = true;
 };
 
-std::vector<DirectedSide> sortedSides(const std::vector<Triangle>& triangles) {
-  std::vector<DirectedSide> sides;
-  sides.reserve(3 * triangles.size());
-  for (std::size_t f = 0; f < triangles.size(); ++f) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const VertexId a = triangles[f][k];
-      const VertexId b = triangles[f][(k + 1) % 3];
-      sides.push_back({std::min(a, b), std::max(a, b), HalfedgeId(3 * f + k), a < b});
+/// By tail, head and halfedge: counted into place by tail, of which each has few.
+std::vector<DirectedSide> sortedSides(const std::vector<Triangle>& triangles,
+                                      std::size_t vertexCount) {
+  std::vector<std::uint32_t> end(vertexCount + 1, 0);
+  const auto forEachSide = [&](const auto& visit) {
+    for (std::size_t f = 0; f < triangles.size(); ++f) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId a = triangles[f][k];
+        const VertexId b = triangles[f][(k + 1) % 3];
+        visit(DirectedSide{std::min(a, b), std::max(a, b), HalfedgeId(3 * f + k), a < b});
+      }
     }
+  };
+  forEachSide([&](const DirectedSide& side) { ++end[side.tail.index() + 1]; });
+  for (std::size_t v = 0; v < vertexCount; ++v) end[v + 1] += end[v];
+  std::vector<DirectedSide> sides(3 * triangles.size());
+  std::vector<std::uint32_t> next(end.begin(), end.end() - 1);
+  forEachSide([&](const DirectedSide& side) { sides[next[side.tail.index()]++] = side; });
+  const auto at = [&](std::uint32_t i) { return sides.begin() + static_cast<std::ptrdiff_t>(i); };
+  for (std::size_t v = 0; v < vertexCount; ++v) {
+    std::sort(at(end[v]), at(end[v + 1]), [](const DirectedSide& x, const DirectedSide& y) {
+      return x.head != y.head ? x.head < y.head : x.halfedge < y.halfedge;
+    });
   }
-  std::sort(sides.begin(), sides.end(), [](const DirectedSide& x, const DirectedSide& y) {
-    if (x.tail != y.tail) return x.tail < y.tail;
-    if (x.head != y.head) return x.head < y.head;
-    return x.halfedge < y.halfedge;
-  });
   return sides;
 }
 
@@ -77,19 +86,29 @@ Result<void> checkInput(const std::vector<Eigen::Vector3d>& positions,
     }
   }
   for (std::size_t v = 0; v < positions.size(); ++v) {
-    const Element element = Element::vertex(VertexId(v));
     if (!isUsed[v]) {
       return Error{ErrorCode::InvalidArgument,
                    "vertex " + std::to_string(v) + " belongs to no face; remove it",
-                   {element}};
+                   {Element::vertex(VertexId(v))}};
     }
     if (!positions[v].allFinite()) {
       return Error{ErrorCode::InvalidArgument,
                    "vertex " + std::to_string(v) + " has a coordinate that is not a finite number",
-                   {element}};
+                   {Element::vertex(VertexId(v))}};
     }
   }
   return {};
+}
+
+/// The halfedges of one fan around a vertex, counter-clockwise.
+template <class Visit>
+void forEachOutgoing(const Mesh& mesh, VertexId v, const Visit& visit) {
+  const HalfedgeId start = mesh.outgoing(v);
+  HalfedgeId h = start;
+  do {
+    visit(h);
+    h = mesh.opposite(mesh.previous(h));
+  } while (h.isValid() && h != start);
 }
 
 }  // namespace
@@ -106,12 +125,7 @@ VertexId Mesh::head(EdgeId e) const {
 
 std::vector<FaceId> Mesh::facesAround(VertexId v) const {
   std::vector<FaceId> faces;
-  const HalfedgeId start = outgoing(v);
-  HalfedgeId h = start;
-  do {
-    faces.push_back(face(h));
-    h = opposite(previous(h));
-  } while (h.isValid() && h != start);
+  forEachOutgoing(*this, v, [&](HalfedgeId h) { faces.push_back(face(h)); });
   return faces;
 }
 
@@ -227,7 +241,7 @@ Result<Mesh> makeMesh(std::vector<Eigen::Vector3d> positions, std::vector<Triang
 
   Offenders branching;
   Offenders turned;
-  const std::vector<DirectedSide> sides = sortedSides(mesh.triangles_);
+  const std::vector<DirectedSide> sides = sortedSides(mesh.triangles_, mesh.vertexCount());
   for (std::size_t i = 0; i < sides.size();) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].tail == sides[i].tail &&
@@ -278,7 +292,9 @@ Result<Mesh> makeMesh(std::vector<Eigen::Vector3d> positions, std::vector<Triang
   }
   Offenders pinched;
   for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
-    if (mesh.facesAround(VertexId(v)).size() != outgoingCount[v]) {
+    std::uint32_t fan = 0;
+    forEachOutgoing(mesh, VertexId(v), [&fan](HalfedgeId) { ++fan; });
+    if (fan != outgoingCount[v]) {
       pinched.add({Element::vertex(VertexId(v))}, std::to_string(v));
     }
   }
