@@ -9,6 +9,7 @@
 #include <numbers>
 
 #include "develop/curvature_potential.h"
+#include "unfold/sparse_factor.h"
 
 // Notation: u = motion of the inner vertices along their normals, mm; d = 2 pi - angle sum; A = how
 // the angle sums answer to u; M = vertex areas; S = stiffness (cotangents) with the border held;
@@ -65,18 +66,19 @@ class ShapeSearch {
         inner_(mesh),
         area_(vertexAreas(mesh, inner_)),
         stiffness_(makeStiffness(mesh, inner_)),
+        bending_(makeBending(stiffness_, area_)),
+        pattern_(couplings(bending_)),
+        matrix_(pattern_),
+        factor_(pattern_),
         roughnessAllowed_(
             std::max(kSmoothAngle, kMaxRoughening * roughness(mesh, mesh.positions()))) {
     for (std::size_t f = 0; f < mesh.faceCount(); ++f) pieceArea_ += mesh.area(FaceId(f));
-    const SparseMatrix scaled = area_.cwiseInverse().asDiagonal() * stiffness_;
-    bending_ = stiffness_ * scaled;
     held_ = VectorXd::Zero(inner_.count());
     poisson_.compute(stiffness_);
   }
 
   Shape run(const Progress* progress) {
     Shape shape{mesh_.positions(), ShapeEnd::Developable, 0};
-    if (inner_.count() == 0) return shape;
     double price = kFirstPrice;
     double strain = strainOf(shape.at);
     while (strain > kFlatEnough) {
@@ -142,26 +144,16 @@ class ShapeSearch {
     const SparseMatrix uu = link * (SparseMatrix(answer.transpose()) * byArea) + price * bending_;
     const SparseMatrix pu = link * (stiffness_ * byArea);
     const SparseMatrix pp = link * bending_;
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(static_cast<std::size_t>(uu.nonZeros() + 2 * pu.nonZeros() + pp.nonZeros()));
-    const auto add = [&entries](const SparseMatrix& part, Index row, Index column) {
-      for (Index k = 0; k < part.outerSize(); ++k) {
-        for (SparseMatrix::InnerIterator it(part, k); it; ++it) {
-          // Interleaved, u before phi, so that the ordering sees one graph of vertices.
-          entries.emplace_back(2 * it.row() + row, 2 * it.col() + column, it.value());
-        }
-      }
-    };
-    add(uu, 0, 0);
-    add(pu, 1, 0);
-    add(SparseMatrix(pu.transpose()), 0, 1);
-    add(pp, 1, 1);
-    for (Index i = 0; i < n; ++i) {
-      entries.emplace_back(2 * i + 1, 2 * i + 1, area_[i] / pieceArea_);
-      entries.emplace_back(2 * i, 2 * i, held_[i] * kHoldPrice * uu.coeff(i, i));
+    matrix_.setZero();
+    addSymmetric(uu, 0);
+    addSymmetric(pp, 1);
+    for (Index k = 0; k < pu.outerSize(); ++k) {
+      for (SparseMatrix::InnerIterator it(pu, k); it; ++it) addLink(it.row(), it.col(), it.value());
     }
-    SparseMatrix matrix(2 * n, 2 * n);
-    matrix.setFromTriplets(entries.begin(), entries.end());
+    for (Index i = 0; i < n; ++i) {
+      matrix_.addDiagonal(static_cast<std::uint32_t>(i), held_[i] * kHoldPrice * uu.coeff(i, i), 0,
+                          area_[i] / pieceArea_);
+    }
     const VectorXd weighted = link * defect.cwiseQuotient(area_);
     const VectorXd rightU = answer.transpose() * weighted;
     const VectorXd rightPhi = stiffness_ * weighted;
@@ -170,18 +162,57 @@ class ShapeSearch {
       right[2 * i] = rightU[i];
       right[2 * i + 1] = rightPhi[i];
     }
-    const SparseMatrix lower = matrix.triangularView<Eigen::Lower>();
-    if (!analysed_) {
-      solver_.analyzePattern(lower);
-      analysed_ = true;
-    }
-    solver_.factorize(lower);
-    if (solver_.info() != Eigen::Success) return std::nullopt;
-    const VectorXd solution = solver_.solve(right);
+    if (!factor_.factor(matrix_)) return std::nullopt;
+    VectorXd solution;
+    factor_.solve(right, solution);
     if (!solution.allFinite()) return std::nullopt;
     VectorXd motion(n);
     for (Index i = 0; i < n; ++i) motion[i] = solution[2 * i];
     return motion;
+  }
+
+  /// Adds a symmetric matrix of the u (side 0) or of the phi (side 1).
+  void addSymmetric(const SparseMatrix& part, Index side) {
+    for (Index k = 0; k < part.outerSize(); ++k) {
+      for (SparseMatrix::InnerIterator it(part, k); it; ++it) {
+        const auto row = static_cast<std::uint32_t>(it.row());
+        const auto column = static_cast<std::uint32_t>(it.col());
+        if (row == column) {
+          matrix_.addDiagonal(row, side == 0 ? it.value() : 0, 0, side == 1 ? it.value() : 0);
+        } else if (row > column) {
+          Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
+          block(side, side) = it.value();
+          matrix_.add(pattern_.find(row, column), block);
+        }
+      }
+    }
+  }
+
+  /// Adds what ties phi of one vertex to u of another, and its mirror image in the matrix.
+  void addLink(Index phi, Index u, double value) {
+    const auto row = static_cast<std::uint32_t>(phi), column = static_cast<std::uint32_t>(u);
+    if (row == column) return matrix_.addDiagonal(row, 0, value, 0);
+    Eigen::Matrix2d block = Eigen::Matrix2d::Zero();
+    block(1, 0) = value;
+    matrix_.add(pattern_.find(row, column), block);
+  }
+
+  /// Vertices whose numbers a step ties together: those of a common neighbour.
+  static unfolding::BlockPattern couplings(const SparseMatrix& bending) {
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
+    for (Index k = 0; k < bending.outerSize(); ++k) {
+      for (SparseMatrix::InnerIterator it(bending, k); it; ++it) {
+        if (it.row() > it.col()) {
+          pairs.emplace_back(static_cast<std::uint32_t>(it.row()),
+                             static_cast<std::uint32_t>(it.col()));
+        }
+      }
+    }
+    return {static_cast<std::size_t>(bending.rows()), pairs};
+  }
+  static SparseMatrix makeBending(const SparseMatrix& stiffness, const VectorXd& area) {
+    const SparseMatrix scaled = area.cwiseInverse().asDiagonal() * stiffness;
+    return stiffness * scaled;
   }
 
   [[nodiscard]] Positions moved(const Positions& at, const Positions& normals,
@@ -245,19 +276,22 @@ class ShapeSearch {
   VectorXd area_;
   SparseMatrix stiffness_;
   SparseMatrix bending_;
+  /// A node per vertex, u and phi its two numbers: the ordering sees one graph of vertices.
+  unfolding::BlockPattern pattern_;
+  unfolding::BlockMatrix matrix_;
+  unfolding::SparseFactor factor_;
   double roughnessAllowed_;
   double pieceArea_ = 0;
   VectorXd held_;  ///< 1 for vertices that came to a limit
   std::size_t heldCount_ = 0;
   Eigen::SimplicialLDLT<SparseMatrix> poisson_;
-  Eigen::SimplicialLDLT<SparseMatrix> solver_;
-  bool analysed_ = false;
 };
 
 }  // namespace
 
 Shape findDevelopableShape(const Mesh& mesh, const DevelopOptions& options,
                            const Progress* progress) {
+  if (FreeVertices(mesh).count() == 0) return {mesh.positions(), ShapeEnd::Developable, 0};
   return ShapeSearch(mesh, options).run(progress);
 }
 
