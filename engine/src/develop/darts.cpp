@@ -4,6 +4,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <optional>
 #include <utility>
 
 #include "develop/dart_paths.h"
@@ -16,6 +18,8 @@ using namespace developing;
 
 /// A dart must lower the mean area error by this share.
 constexpr double kLeastHelp = 0.1;
+/// What unfold() promises of the lengths of wires.
+constexpr double kExactLength = 1e-9;
 
 /// How wide the dart's mouth opens in the plane: its two boundary ends.
 double intakeOf(const Piece& piece, const FlatPiece& flat, const std::string& dart) {
@@ -32,6 +36,39 @@ double intakeOf(const Piece& piece, const FlatPiece& flat, const std::string& da
   }
   if (mouth.size() != 2) return 0;
   return (flat.position[mouth[0]] - flat.position[mouth[1]]).norm();
+}
+
+/// A piece that a line opens or parts, in the plane.
+struct Laid {
+  std::vector<FlatPiece> flats;  ///< of its parts
+  double error = 0;              ///< mean area error over all of them
+  std::size_t crossings = 0;
+};
+
+/// @return nothing when a part cannot be laid flat
+std::optional<Laid> lay(const Piece& piece, const UnfoldOptions& options, Progress* progress) {
+  const Result<std::vector<Piece>> parts = partsOf(piece);
+  if (!parts) return std::nullopt;
+  Laid laid;
+  double total = 0;
+  for (const Piece& part : *parts) {
+    // The numbering of a piece in one part is kept: its ends are looked up afterwards.
+    const Piece& whole = parts->size() == 1 ? piece : part;
+    Result<FlatPiece> flat = unfold(whole, options, progress);
+    if (!flat || flat->check.flippedFaces > 0 || flat->check.maxLengthError > kExactLength) {
+      return std::nullopt;
+    }
+    double area = 0;
+    for (std::size_t f = 0; f < whole.mesh->faceCount(); ++f) {
+      area += areaOf(targetSides(whole, FaceId(f)));
+    }
+    laid.error += area * flat->meanAreaError;
+    laid.crossings += flat->check.crossings;
+    total += area;
+    laid.flats.push_back(*std::move(flat));
+  }
+  laid.error /= total;
+  return laid;
 }
 
 Result<void> checkOptions(const DartOptions& options) {
@@ -56,36 +93,32 @@ std::string describe(const DartProposal& proposal) {
 Result<std::vector<DartProposal>> adviseDarts(const Piece& piece, const FlatPiece& flat,
                                               const DartOptions& options, Progress* progress) {
   if (const Result<void> valid = checkOptions(options); !valid) return valid.error();
-  Result<ForcedError> forced = measureForcedError(piece);
-  if (!forced) return forced.error();
   std::vector<DartProposal> proposals;
   const Patch patch = patchOf(piece);
-  std::size_t tried = 0;
+  std::array<std::size_t, 2> tried{};  // darts, cuts
   for (const Candidate& candidate : findCandidates(piece, options)) {
-    if (tried == options.maxProposals) break;
     if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "stopped", {}};
     DartProposal proposal;
     proposal.path = candidate.path;
     proposal.apex = candidate.apex;
     proposal.length = candidate.length;
     proposal.errorBefore = flat.meanAreaError;
-    if (candidate.bulge < 0) {
-      proposal.kind = DartProposal::Kind::Cut;
-      proposal.errorAfter =
-          flat.meanAreaError * std::min(1.0, candidate.errorLeft / forced->estimate);
-    } else {
-      ++tried;
-      const Result<Patch> with = addDart(patch, piece, candidate.path, "proposal");
-      if (!with) continue;
-      Result<Piece> opened = makePiece(piece.name, with->mesh, with->chains, with->targets);
-      if (!opened) continue;
-      takeTargetSides(piece, with->sourceFace, *opened);
-      const Result<FlatPiece> after = unfold(*opened, options.unfold, progress);
-      if (!after || !after->check.passes()) continue;
-      proposal.errorAfter = after->meanAreaError;
-      proposal.intake = intakeOf(*opened, *after, "proposal");
-    }
-    if (proposal.errorAfter < (1 - kLeastHelp) * proposal.errorBefore) {
+    const bool isCut = candidate.bulge < 0;
+    if (tried[isCut ? 1 : 0]++ >= options.maxProposals) continue;
+    if (isCut) proposal.kind = DartProposal::Kind::Cut;
+    const Result<Patch> with = addDart(patch, piece, candidate.path, "proposal");
+    if (!with) continue;
+    Result<Piece> opened = makePiece(piece.name, with->mesh, with->chains, with->targets);
+    if (!opened) continue;
+    takeTargetSides(piece, with->sourceFace, *opened);
+    const std::optional<Laid> laid = lay(*opened, options.unfold, progress);
+    if (!laid) continue;
+    proposal.errorAfter = laid->error;
+    if (!isCut) proposal.intake = intakeOf(*opened, laid->flats.front(), "proposal");
+    // What overlaps needs a line that opens it; strain comes second.
+    const bool opens = laid->crossings < flat.check.crossings;
+    const bool strainsLess = proposal.errorAfter < (1 - kLeastHelp) * proposal.errorBefore;
+    if (opens || (strainsLess && laid->crossings <= flat.check.crossings)) {
       proposals.push_back(std::move(proposal));
     }
   }
@@ -110,11 +143,12 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
   const auto stopBecause = [&](const char* code, const std::string& why) {
     made.findings.push_back(
         {code,
-         fmt::format("{:.2f} % mean area error is left where {:.3g} % is wanted: {}",
-                     100 * flat->meanAreaError, limit.percent(), why),
+         fmt::format("{:.2f} % mean area error is left where {:.3g} % is wanted{}: {}",
+                     100 * flat->meanAreaError, limit.percent(),
+                     flat->check.crossings > 0 ? ", and it lies on itself" : "", why),
          {}});
   };
-  while (flat->meanAreaError > limit.value()) {
+  while (flat->meanAreaError > limit.value() || flat->check.crossings > 0) {
     if (static_cast<int>(made.darts.size()) == maxDarts) {
       stopBecause("dart-limit", fmt::format("{} darts are in already", maxDarts));
       break;

@@ -70,6 +70,57 @@ void takeTargetSides(const Piece& from, const FaceData<FaceId>& source, Piece& t
   }
 }
 
+Result<std::vector<Piece>> partsOf(const Piece& piece) {
+  const Mesh& mesh = *piece.mesh;
+  constexpr std::uint32_t kNone = 0xffffffffU;
+  FaceData<std::uint32_t> partOf(mesh.faceCount(), kNone);
+  std::vector<std::vector<FaceId>> faces;
+  for (std::size_t seed = 0; seed < mesh.faceCount(); ++seed) {
+    if (partOf[FaceId(seed)] != kNone) continue;
+    const auto part = static_cast<std::uint32_t>(faces.size());
+    partOf[FaceId(seed)] = part;
+    std::vector<FaceId>& own = faces.emplace_back(1, FaceId(seed));
+    for (std::size_t i = 0; i < own.size(); ++i) {
+      for (int side = 0; side < 3; ++side) {
+        const HalfedgeId other = mesh.opposite(mesh.halfedge(own[i], side));
+        if (!other.isValid() || partOf[mesh.face(other)] != kNone) continue;
+        partOf[mesh.face(other)] = part;
+        own.push_back(mesh.face(other));
+      }
+    }
+    std::sort(own.begin(), own.end());
+  }
+  std::vector<Piece> parts;
+  for (const std::vector<FaceId>& own : faces) {
+    VertexData<VertexId> number(mesh.vertexCount());
+    std::vector<Eigen::Vector3d> positions;
+    std::vector<Triangle> triangles;
+    Piece part;
+    part.name = piece.name;
+    for (const FaceId f : own) {
+      Triangle& triangle = triangles.emplace_back(mesh.vertices(f));
+      for (VertexId& v : triangle) {
+        if (!number[v].isValid()) {
+          number[v] = VertexId(positions.size());
+          positions.push_back(mesh.position(v));
+        }
+        v = number[v];
+      }
+      if (!piece.targetSides.empty()) part.targetSides.values().push_back(piece.targetSides[f]);
+    }
+    for (const Wire& wire : piece.wires) {
+      if (wire.vertices.empty() || !number[wire.vertices.front()].isValid()) continue;
+      Wire& mine = part.wires.emplace_back(wire);
+      for (VertexId& v : mine.vertices) v = number[v];
+    }
+    Result<Mesh> shape = makeMesh(std::move(positions), std::move(triangles));
+    if (!shape) return shape.error();
+    part.mesh = std::make_shared<const Mesh>(*std::move(shape));
+    parts.push_back(std::move(part));
+  }
+  return parts;
+}
+
 }  // namespace developing
 
 namespace {

@@ -12,4 +12,7 @@ namespace toile::developing {
 /// "proposal" its mean scale.
 void takeTargetSides(const Piece& from, const FaceData<FaceId>& source, Piece& to);
 
+/// The parts of a piece that hang together, as pieces of their own.
+[[nodiscard]] Result<std::vector<Piece>> partsOf(const Piece& piece);
+
 }  // namespace toile::developing

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <set>
 
+#include "pipeline/stages.h"
 #include "toile/cut/on_model.h"
 #include "toile/develop/darts.h"
 
@@ -68,33 +69,36 @@ bool liesOnPlane(const Piece& piece, const SurfacePath& path, const Symmetry& sy
 }  // namespace
 
 Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
-                              std::vector<Finding>& findings, Progress* progress) {
+                              const PatternCache& cache, std::vector<Finding>& findings,
+                              Progress* progress) {
   const ReferenceModel& model = *pattern.document.model;
   Design design = *pattern.document.design;
-  std::set<std::string> known;
-  for (const StylingCurve& curve : design.curves) known.insert(curve.id);
-  const auto freeId = [&known](const std::string& wanted) {
+  std::set<std::string> taken;
+  for (const StylingCurve& curve : design.curves) taken.insert(curve.id);
+  const auto freeId = [&taken](const std::string& wanted) {
     std::string id = wanted;
-    for (int n = 2; !known.insert(id).second; ++n) id = fmt::format("{}-{}", wanted, n);
+    for (int n = 2; !taken.insert(id).second; ++n) id = fmt::format("{}-{}", wanted, n);
     return id;
   };
   bool added = false;
   std::set<std::size_t> done;
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
     const Piece& piece = pattern.cut.pieces[i];
-    if (!pattern.flats[i] || done.contains(i)) continue;
-    if (pattern.flats[i]->meanAreaError <= options.autoDart->value()) continue;
+    if (!piece.include || done.contains(i)) continue;
+    const auto known = cache.entries.find(stages::cacheKey(
+        contentHash(piece), options.unfold, stages::developOptions(pattern, piece, options)));
+    if (known == cache.entries.end() || !known->second.flat) continue;
+    const FlatPiece& flat = *known->second.flat;
+    if (flat.meanAreaError <= options.autoDart->value() && flat.check.crossings == 0) continue;
     if (progress != nullptr) progress->step("look for a dart in " + piece.name);
-    const auto proposals =
-        adviseDarts(piece, *pattern.flats[i], {.unfold = options.unfold}, progress);
+    const auto proposals = adviseDarts(piece, flat, {.unfold = options.unfold}, progress);
     if (!proposals) return proposals.error().during("piece \"" + piece.name + "\"");
     if (proposals->empty()) {
       findings.push_back(
           {"no-dart-helps",
            fmt::format("piece \"{}\": {:.2f} % mean area error is left where {:.3g} % "
                        "is wanted; no dart or cut helps by a tenth",
-                       piece.name, 100 * pattern.flats[i]->meanAreaError,
-                       options.autoDart->percent()),
+                       piece.name, 100 * flat.meanAreaError, options.autoDart->percent()),
            {Element::piece(piece.id)}});
       continue;
     }

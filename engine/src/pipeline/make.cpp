@@ -26,7 +26,7 @@ Result<void> putInDarts(Pattern& pattern, const MakeOptions& options, PatternCac
     pattern.findings.resize(told);  // they are told of the final pieces
     if (isCancelled(progress)) return stages::cancelled();
     std::vector<Finding> findings;
-    const Result<bool> added = addProposedDarts(pattern, options, findings, progress);
+    const Result<bool> added = addProposedDarts(pattern, plain, cache, findings, progress);
     if (!added) return added.error();
     // Why a piece stays over the limit is told once, when no more darts come.
     std::erase_if(findings, [&](const Finding& f) { return *added && f.code != "auto-dart"; });

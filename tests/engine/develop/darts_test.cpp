@@ -128,6 +128,54 @@ TEST(Darts, ASaddleWantsAGusset) {
   EXPECT_THAT(made->findings[0].message, testing::HasSubstr("gusset"));
 }
 
+TEST(Darts, TheErrorAfterACutIsMeasuredOnBothParts) {
+  const Piece piece = test::patchOf(test::saddle(20, 10, 0.02));
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  const auto proposals = adviseDarts(piece, *flat);
+  ASSERT_TRUE(proposals) << proposals.error();
+  ASSERT_FALSE(proposals->empty());
+  const DartProposal& best = proposals->front();
+  EXPECT_EQ(best.kind, DartProposal::Kind::Cut);
+  // Parted through its middle a saddle leaves two of half the width.
+  const Result<FlatPiece> half =
+      unfold(test::patchOf(test::heightField(20, 10, 10, [](double x, double y) {
+        return 0.01 * ((x - 100) * (x - 100) - (y - 100) * (y - 100));
+      })));
+  ASSERT_TRUE(half) << half.error();
+  EXPECT_LT(best.errorAfter, 0.9 * best.errorBefore);
+  EXPECT_NEAR(best.errorAfter / half->meanAreaError, 1, 0.6);
+}
+
+/// A strip that winds once and 54 degrees more round its middle, waved at both edges.
+Mesh spiral() {
+  constexpr int kRows = 8, kSegments = 96;
+  const Mesh strip = test::grid(kRows, kSegments, 1);
+  std::vector<Eigen::Vector3d> at;
+  for (const Eigen::Vector3d& p : strip.positions()) {
+    const double turn = 2 * std::numbers::pi * 1.15 * p.y() / kSegments;
+    const double radius = 40 + 60 * p.x() / kRows, side = (radius - 70) / 30;
+    at.emplace_back(radius * std::cos(turn), radius * std::sin(turn),
+                    6 * turn + 5 * side * side * std::cos(3 * turn));
+  }
+  return strip.withPositions(std::move(at));
+}
+
+TEST(Darts, APieceThatLiesOnItselfGetsALineThatOpensIt) {
+  const Piece piece = test::patchOf(spiral());
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  ASSERT_GT(flat->check.crossings, 0U);
+  ASSERT_LT(flat->meanAreaError, 0.01) << "strain alone asks for nothing";
+  const auto proposals = adviseDarts(piece, *flat);
+  ASSERT_TRUE(proposals) << proposals.error();
+  EXPECT_FALSE(proposals->empty());
+  const Result<AutoDart> made = autoDart(patchOfMesh(spiral()), "spiral", Ratio::percent(50));
+  ASSERT_TRUE(made) << made.error();
+  ASSERT_FALSE(made->findings.empty());
+  EXPECT_THAT(made->findings.back().message, testing::HasSubstr("lies on itself"));
+}
+
 TEST(Darts, CrossNoLineOfThePiece) {
   const Mesh dome = test::heightField(20, 20, 10, [](double x, double y) {
     return 70 * std::sin(x * std::numbers::pi / 200) * std::sin(y * std::numbers::pi / 200);

@@ -42,7 +42,7 @@ struct DartProposal {
   double length = 0;       ///< mm: of seam that is added
   double intake = 0;       ///< mm: how wide the mouth opens in the plane; 0 for a cut
   double errorBefore = 0;  ///< mean area error
-  double errorAfter = 0;   ///< of a dart measured by unfolding, of a cut estimated
+  double errorAfter = 0;   ///< measured by unfolding; of a cut over both parts
 };
 
 struct DartOptions {
@@ -52,9 +52,9 @@ struct DartOptions {
   Length tipDistance = Length::mm(15);
 };
 
-/// Darts for a piece that lies flat badly, those that leave the least error first, and after them
-/// cuts. They start at the boundary, not near its corners, cross no line of the piece and
-/// run straight on the surface to where the curvature weighs most.
+/// Darts for a piece that lies flat badly or on itself, those that leave the least error first, and
+/// after them cuts. They start at the boundary, not near its corners, cross no line of the piece
+/// and run straight on the surface to where the curvature weighs most.
 ///
 /// @param flat of this piece.
 /// @return none if no line helps; errors of reading the piece only
@@ -89,8 +89,8 @@ struct AutoDart {
   std::vector<Finding> findings;  ///< each dart; why the limit is not met
 };
 
-/// Puts in the best dart again and again until the mean area error is at most `limit`, no dart
-/// helps by a tenth or `maxDarts` are in.
+/// Puts in the best dart again and again until the mean area error is at most `limit` and nothing
+/// overlaps, no dart helps by a tenth or `maxDarts` are in.
 Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
                           const DartOptions& options = {}, int maxDarts = 8,
                           Progress* progress = nullptr);
