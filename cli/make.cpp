@@ -10,6 +10,8 @@
 
 #include "commands.h"
 #include "terminal_progress.h"
+#include "toile/core/file.h"
+#include "toile/design/design_file.h"
 #include "toile/pipeline.h"
 
 namespace toile::cli {
@@ -20,6 +22,7 @@ struct Arguments {
   std::optional<std::string> body;
   std::filesystem::path folder = "out";
   MakeOptions options;
+  bool save = false;
 };
 
 std::string describe(const Pattern& pattern, const Arguments& arguments) {
@@ -42,7 +45,31 @@ std::string describeForPrograms(const Pattern& pattern, const WrittenPattern& wr
   return json.dump(2);
 }
 
+/// Writes the design with the lines that --auto-cut and --auto-dart have found.
+Result<void> saveDesign(const Pattern& pattern, const Document& before,
+                        const std::filesystem::path& path) {
+  if (pattern.document.design->curves.size() == before.design->curves.size()) return {};
+  Design design = *pattern.document.design;
+  // The found lines hold points of the mesh: the file has to say which.
+  if (!design.models.empty() && !design.models.front().connectivityHash) {
+    design.models.front().connectivityHash = pattern.document.model->mesh->connectivityHash();
+  }
+  return writeFileWhole(path, writeDesign(design));
+}
+
 int run(const Arguments& arguments, const Session& session) {
+  if (arguments.save && arguments.body) {
+    std::fprintf(stderr,
+                 "toile: --save is for the design's own model: lines found on another body do not "
+                 "belong in it (toile make --help)\n");
+    return kWrongCommandLine;
+  }
+  if (arguments.save && !arguments.options.autoCut && !arguments.options.autoDart) {
+    std::fprintf(stderr,
+                 "toile: --save keeps the lines of --auto-cut and --auto-dart; give one of them "
+                 "(toile make --help)\n");
+    return kWrongCommandLine;
+  }
   TerminalProgress progress;
   progress.step("open " + arguments.design.string());
   const Result<Document> document = openDocument(arguments.design, arguments.body, session.units);
@@ -52,6 +79,10 @@ int run(const Arguments& arguments, const Session& session) {
   if (!pattern) return fail(pattern.error());
   const Result<WrittenPattern> written = writePattern(*pattern, arguments.folder, &progress);
   if (!written) return fail(written.error());
+  if (arguments.save) {
+    const Result<void> saved = saveDesign(*pattern, *document, arguments.design);
+    if (!saved) return fail(saved.error());
+  }
 
   int status = report(written->findings, session);
   for (const std::optional<Error>& failure : pattern->failures) {
@@ -89,6 +120,8 @@ void addMake(CLI::App& app, Session& session) {
             "Process pieces whose mean area error is greater than this, boundary held, until it is "
             "not")
       ->type_name("RATIO");
+  command->add_flag("--save", arguments->save,
+                    "Write the lines that --auto-cut and --auto-dart find into the design");
 }
 
 }  // namespace toile::cli

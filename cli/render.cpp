@@ -176,6 +176,14 @@ void addRender(CLI::App& app, Session& session) {
                            {"strain", RenderPieces::Strain},
                            {"none", RenderPieces::None}},
                           "The pieces beside it, in their colours or coloured by strain");
+  addChoice<StrainMap>(*command, "--strain", options.strain,
+                       {{"area", StrainMap::Area},
+                        {"along", StrainMap::Along},
+                        {"across", StrainMap::Across},
+                        {"shear", StrainMap::Shear},
+                        {"area-error", StrainMap::AreaError}},
+                       "What --pieces strain tells: of the area, along or across the grain, shear, "
+                       "or the article's map of area from 0 to 100 %");
   addParsed(*command, "--explode", options.explode, parseRatio,
             "How far the pieces stand off the model, 0% to 200%")
       ->type_name("PERCENT");

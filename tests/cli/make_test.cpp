@@ -60,10 +60,11 @@ TEST(Make, WritesEveryFileOfTheSample) {
   const ProgramResult result = toile({"make", kSleeve, "-o", out});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, testing::HasSubstr("2 pieces"));
-  EXPECT_THAT(
-      namesIn(out),
-      testing::ElementsAre("pattern.dxf", "pattern.pdf", "pattern.svg", "pieces/Under-sleeve.obj",
-                           "pieces/Upper-sleeve.obj", "preview.png", "report.html", "report.json"));
+  EXPECT_THAT(namesIn(out),
+              testing::ElementsAre("pattern.dxf", "pattern.pdf", "pattern.svg",
+                                   "pieces/Under-sleeve.obj", "pieces/Under-sleeve.ply",
+                                   "pieces/Upper-sleeve.obj", "pieces/Upper-sleeve.ply",
+                                   "preview.png", "report.html", "report.json", "strain.svg"));
 }
 
 TEST(Make, IsByteForByteTheSameWithOneAndTwoThreads) {
@@ -89,10 +90,40 @@ TEST(Make, TellsProgramsWhatItMade) {
   const auto told = nlohmann::json::parse(result.out);
   EXPECT_EQ(told["complete"], true);
   EXPECT_EQ(told["pieces"], 2);
-  ASSERT_EQ(told["files"].size(), 8U);
+  ASSERT_EQ(told["files"].size(), 11U);
   for (const auto& file : told["files"]) {
     EXPECT_TRUE(fs::exists(file["path"].get<std::string>())) << file;
   }
+}
+
+TEST(Make, SavesTheLinesThatItFinds) {
+  const TemporaryFolder folder;
+  // A sleeve without lines: a tube, of which --auto-cut makes something flat.
+  const fs::path design = folder.path() / "tube.toile";
+  writeText(design, R"({"toile": 1, "name": "tube", "models": [{"model": "builtin:bent-sleeve@1"}],
+    "curves": []})");
+  const ProgramResult made =
+      toile({"make", design, "--auto-cut", "--save", "-o", folder.path() / "out"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(readText(design), testing::HasSubstr("autocut-"));
+  EXPECT_THAT(readText(design), testing::HasSubstr("\"connectivity\""));
+  // The saved design makes the same pieces by itself.
+  const ProgramResult again = toile({"make", design, "-o", folder.path() / "again"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  EXPECT_EQ(readText(folder.path() / "again/pattern.svg"),
+            readText(folder.path() / "out/pattern.svg"));
+  // Nothing is found any more, and nothing is written.
+  const std::string before = readText(design);
+  ASSERT_EQ(toile({"make", design, "--auto-cut", "--save", "-o", folder.path() / "out"}).status, 0);
+  EXPECT_EQ(readText(design), before);
+}
+
+TEST(Make, SavesOnlyWhatItIsToFindOnTheDesignsOwnModel) {
+  const TemporaryFolder folder;
+  expectRefusal(toile({"make", kSleeve, "--save", "-o", folder.path() / "out"}), 2, "--auto-cut");
+  expectRefusal(toile({"make", kSleeve, "--auto-cut", "--save", "--body", "builtin:bent-sleeve@1",
+                       "-o", folder.path() / "out"}),
+                2, "own model");
 }
 
 TEST(Make, RefusesAMissingDesign) {

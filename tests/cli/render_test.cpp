@@ -67,6 +67,7 @@ TEST_F(Render, EveryOptionChangesThePicture) {
                                                {"--style", "plain"},
                                                {"--lines", "none"},
                                                {"--pieces", "strain"},
+                                               {"--pieces", "strain", "--strain", "across"},
                                                {"--pieces", "none"},
                                                {"--explode", "30%"},
                                                {"--no-captions"}}) {

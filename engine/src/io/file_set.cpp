@@ -12,6 +12,7 @@
 #include <system_error>
 
 #include "toile/core/file.h"
+#include "toile/io/report.h"
 
 namespace toile {
 namespace {
@@ -181,7 +182,9 @@ std::vector<std::string> reportedFiles(const fs::path& report) {
     const auto name = file->get<std::string>();
     const bool isPlain = name.starts_with(prefix) && name.ends_with(".obj") &&
                          name.find('/', prefix.size()) == std::string::npos;
-    if (isPlain) names.push_back(name);
+    if (!isPlain) continue;
+    names.push_back(name);
+    names.push_back(plyFileName(name));
   }
   return names;
 }

@@ -67,7 +67,11 @@ std::vector<std::string> pieceFileNames(const CutResult& cut) {
   return names;
 }
 
-std::string writePieceObj(const Piece& piece, const FlatPiece& flat) {
+std::string plyFileName(const std::string& objName) {
+  return objName.substr(0, objName.rfind('.')) + ".ply";
+}
+
+std::string writePieceObj(const Piece& piece, const FlatPiece& flat, const PieceStrain* strain) {
   const Mesh& mesh = *piece.mesh;
   std::string out = "# toile-units: mm\n";
   out += fmt::format("# piece {} \"{}\": v on the model, vt in the plane, both mm\n",
@@ -82,6 +86,13 @@ std::string writePieceObj(const Piece& piece, const FlatPiece& flat) {
     out += fmt::format("f {0}/{0} {1}/{1} {2}/{2}\n", t[0].index() + 1, t[1].index() + 1,
                        t[2].index() + 1);
   }
+  if (strain != nullptr) {
+    for (std::size_t f = 0; f < strain->faces.size(); ++f) {
+      const Strain& s = strain->faces[FaceId(f)];
+      out += fmt::format("# strain {} {:.5f} {:.5f} {:.5f} {:.5f}\n", f, s.along, s.across, s.shear,
+                         s.area);
+    }
+  }
   for (const Wire& wire : piece.wires) {
     const std::string group = wireGroup(wire);
     out += fmt::format("g {}\n", group);
@@ -95,6 +106,34 @@ std::string writePieceObj(const Piece& piece, const FlatPiece& flat) {
     out += 'l';
     for (const VertexId v : wire.vertices) out += fmt::format(" {}", v.index() + 1);
     out += '\n';
+  }
+  return out;
+}
+
+std::string writePiecePly(const Piece& piece, const FlatPiece& flat, const PieceStrain& strain) {
+  const Mesh& mesh = *piece.mesh;
+  std::string out = fmt::format(
+      "ply\nformat ascii 1.0\ncomment toile-units: mm\ncomment piece {} \"{}\"\n"
+      "element vertex {}\nproperty double x\nproperty double y\nproperty double z\n"
+      "property double s\nproperty double t\n"
+      "element face {}\nproperty list uchar int vertex_indices\n",
+      oneLine(piece.id), oneLine(piece.name), mesh.vertexCount(), mesh.faceCount());
+  for (const char* name : {"greatest", "least", "along", "across", "shear", "area"}) {
+    out += fmt::format("property float {}\n", name);
+  }
+  out += "end_header\n";
+  for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
+    const Eigen::Vector3d& p = mesh.position(VertexId(v));
+    const Eigen::Vector2d& q = flat.position[VertexId(v)];
+    out += fmt::format("{} {} {} {} {}\n", formatExact(p.x()), formatExact(p.y()),
+                       formatExact(p.z()), formatExact(q.x()), formatExact(q.y()));
+  }
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& t = mesh.vertices(FaceId(f));
+    const Strain& s = strain.faces[FaceId(f)];
+    out += fmt::format("3 {} {} {} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f} {:.6f}\n", t[0].index(),
+                       t[1].index(), t[2].index(), s.greatest, s.least, s.along, s.across, s.shear,
+                       s.area);
   }
   return out;
 }

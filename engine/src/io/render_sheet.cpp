@@ -139,7 +139,7 @@ std::vector<std::string> waysToBreak(const std::string& name) {
 struct SheetColours {
   std::vector<Colour> cloth;  ///< per piece of the cut
   bool product = true;
-  std::optional<double> strainScale;  ///< coloured by strain if set
+  const StrainField* strain = nullptr;  ///< coloured by strain if set
 };
 
 class SheetPainter {
@@ -157,8 +157,8 @@ class SheetPainter {
     cairo_fill_preserve(cairo_);
     setStroke(cairo_, {kCutLine, Dash::Solid, 0.8}, frame_.scale);
     cairo_stroke(cairo_);
-    if (colours_.strainScale) {
-      paintStrain(pattern_.cut.pieces[source], *pattern_.flats[source]);
+    if (colours_.strain != nullptr) {
+      paintStrain(source);
     } else {
       addOutlines(piece.sewLines);
       setColour(cairo_, cloth_);
@@ -166,7 +166,7 @@ class SheetPainter {
     }
     for (const InternalLine& line : piece.internalLines) paintInternal(line);
     for (const OutlineRun& run : piece.runs) paintRun(piece, run);
-    if (colours_.strainScale) return;  // nothing else on the map
+    if (colours_.strain != nullptr) return;  // nothing else on the map
     for (const Notch& notch : piece.notches) paintNotch(notch);
     paintGrain(piece);
     paintLabel(piece);
@@ -188,17 +188,26 @@ class SheetPainter {
     }
   }
 
-  void paintStrain(const Piece& piece, const FlatPiece& flat) {
+  void paintStrain(std::size_t source) {
+    const Piece& piece = pattern_.cut.pieces[source];
+    const FlatPiece& flat = *pattern_.flats[source];
     // Without anti-aliasing no gaps show between faces; the sew line covers the steps at the rim.
     cairo_set_antialias(cairo_, CAIRO_ANTIALIAS_NONE);
     for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) {
       const Triangle& t = piece.mesh->vertices(FaceId(f));
       cairo_new_path(cairo_);
       for (const VertexId v : t) lineTo(flat.position[v]);
-      setColour(cairo_, strainColour(strainOf(flat.distortion[FaceId(f)]) / *colours_.strainScale));
+      setColour(cairo_, colours_.strain->colour(source, FaceId(f)));
       cairo_fill(cairo_);
     }
     cairo_set_antialias(cairo_, CAIRO_ANTIALIAS_DEFAULT);
+    cairo_new_path(cairo_);
+    for (const auto& [a, b] : limitLine(*colours_.strain, pattern_, source)) {
+      moveTo(flat.position[a]);
+      lineTo(flat.position[b]);
+    }
+    setStroke(cairo_, {colourOf(0x16202E), Dash::Solid, 1.3}, frame_.scale);
+    cairo_stroke(cairo_);
   }
 
   /// In products lines are a shade of their cloth, in plain pictures they tell their kinds.
@@ -331,23 +340,35 @@ void drawScaleBar(cairo_t* cairo, const PixelBox& box, const SheetFrame& frame) 
 }
 
 /// A bar of the strain colours with what they mean.
-void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& frame, double scale) {
+void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& frame,
+                      const StrainField& field) {
   constexpr int kShades = 41;
+  const double least = field.least();
   const double length = 0.30 * box.width;
   const double left = box.x + kMargin * frame.scale;
   const double y = box.y + box.height - 30 * frame.scale;
   for (int i = 0; i < kShades; ++i) {
     cairo_rectangle(cairo, left + length * i / kShades, y, length / kShades + 0.5, 8 * frame.scale);
-    setColour(cairo, strainColour(2.0 * i / (kShades - 1) - 1));
+    setColour(cairo, field.colour(least + (1 - least) * i / (kShades - 1)));
     cairo_fill(cairo);
   }
-  const int percent = static_cast<int>(std::lround(100 * scale));
   setColour(cairo, kSecondText);
-  const TextBlock less(cairo, fmt::format("\u2212{} % too much cloth", percent), 10 * frame.scale,
-                       false);
-  const TextBlock more(cairo, fmt::format("must stretch +{} %", percent), 10 * frame.scale, false);
+  const std::array<std::string, 2> ends = field.ends();
+  const TextBlock less(cairo, ends[0], 10 * frame.scale, false);
+  const TextBlock more(cairo, ends[1], 10 * frame.scale, false);
   less.draw(cairo, left, y - 4 * frame.scale);
   more.draw(cairo, left + length - more.size().x(), y - 4 * frame.scale);
+  const std::optional<double> limit = field.onlyLimit();
+  if (!limit) return;
+  const double at = left + length * (*limit / field.scale() - least) / (1 - least);
+  cairo_new_path(cairo);
+  cairo_move_to(cairo, at, y);
+  cairo_line_to(cairo, at, y + 8 * frame.scale);
+  setStroke(cairo, {colourOf(0x16202E), Dash::Solid, 1.3}, frame.scale);
+  cairo_stroke(cairo);
+  const TextBlock word(cairo, fmt::format("limit +{:g}", 100 * *limit), 10 * frame.scale, false);
+  setColour(cairo, kSecondText);
+  word.draw(cairo, at - word.size().x() / 2, y + 19 * frame.scale);
 }
 
 }  // namespace
@@ -374,12 +395,15 @@ void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
   SheetColours colours;
   colours.cloth = panelColours(pattern, options.style).flat;
   colours.product = options.style == RenderStyle::Product;
-  if (options.pieces == RenderPieces::Strain) colours.strainScale = strainScale(pattern);
+  std::optional<StrainField> strain;
+  if (options.pieces == RenderPieces::Strain) {
+    colours.strain = &strain.emplace(pattern, options.strain);
+  }
   SheetPainter painter(cairo.get(), frame, pattern, colours);
   for (std::size_t i = 0; i < pattern.pieces.size(); ++i) painter.paint(i);
   if (pattern.pieces.empty()) return;
   drawScaleBar(cairo.get(), box, frame);
-  if (colours.strainScale) drawStrainLegend(cairo.get(), box, frame, *colours.strainScale);
+  if (strain) drawStrainLegend(cairo.get(), box, frame, *strain);
 }
 
 void drawCaption(Picture& picture, const Caption& caption) {

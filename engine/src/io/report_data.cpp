@@ -113,6 +113,8 @@ ReportData measure(const Pattern& pattern) {
       data.wireEdges += piece.wires[w].targetLength.size();
     }
   }
+  std::vector<std::optional<PieceStrain>> strains = measureStrains(pattern);
+  for (std::size_t i = 0; i < strains.size(); ++i) data.pieces[i].strain = std::move(strains[i]);
   for (const SeamMates& mates : pattern.cut.mates) {
     data.pieces[mates.pieceA].wires[mates.wireA].mate = WireMate{mates.pieceB, mates.wireB};
     data.pieces[mates.pieceB].wires[mates.wireB].mate = WireMate{mates.pieceA, mates.wireA};

@@ -40,7 +40,8 @@ struct PieceReport {
   double flatArea = 0;  ///< mm^2, 0 without flat piece
   Spread stretchMin, stretchMax;
   Spread areaRatio;
-  std::vector<WireReport> wires;  ///< flat lengths are 0 without flat piece
+  std::optional<PieceStrain> strain;  ///< of pattern pieces
+  std::vector<WireReport> wires;      ///< flat lengths are 0 without flat piece
 };
 
 struct ReportData {

@@ -157,23 +157,50 @@ class HtmlReport {
 
   void addPieces() {
     if (data_.unfolded == 0) return;
-    const double scale = strainScale(pattern_);
+    const StrainField field(pattern_, StrainMap::Area);
     out_ += fmt::format(
         "<h2>Pieces</h2>\n<p>Colours tell how far the area of the cloth differs from the body: "
         "orange must stretch, blue has cloth to spare.</p>\n{}\n<div class=\"pieces\">\n",
-        strainLegendSvg(scale));
+        strainLegendSvg(field));
     for (std::size_t i = 0; i < pattern_.cut.pieces.size(); ++i) {
       if (!hasFlat(i)) continue;
       const PieceReport& report = data_.pieces[i];
       out_ += fmt::format(
           "<figure>{}<figcaption><b>{}</b>{} on the model, {} flat ({})<br>"
           "area differs by {:.1f}{}% on average</figcaption></figure>\n",
-          strainMapSvg(pattern_.cut.pieces[i], *pattern_.flats[i], scale), pieceName(i),
-          squareCm(report.bodyArea), squareCm(report.flatArea),
+          strainMapSvg(field, pattern_, i), pieceName(i), squareCm(report.bodyArea),
+          squareCm(report.flatArea),
           signedPercent(report.flatArea / std::max(report.bodyArea, 1e-12) - 1),
           100 * pattern_.flats[i]->meanAreaError, kThinSpace);
     }
     out_ += "</div>\n";
+    addWorstPlaces();
+  }
+
+  /// Where the cloth must give most, the worst first.
+  void addWorstPlaces() {
+    constexpr std::size_t kMostPlaces = 10;
+    struct Place {
+      const StrainSpot* spot;
+      std::size_t piece;
+    };
+    std::vector<Place> places;
+    for (std::size_t i = 0; i < data_.pieces.size(); ++i) {
+      if (!data_.pieces[i].strain) continue;
+      for (const StrainSpot& spot : data_.pieces[i].strain->worst) places.push_back({&spot, i});
+    }
+    if (places.empty()) return;
+    std::stable_sort(places.begin(), places.end(), [](const Place& a, const Place& b) {
+      if (a.spot->isOverLimit() != b.spot->isOverLimit()) return a.spot->isOverLimit();
+      return std::abs(a.spot->value) > std::abs(b.spot->value);
+    });
+    if (places.size() > kMostPlaces) places.resize(kMostPlaces);
+    out_ += "<h2>Where the cloth must give most</h2>\n<ul>\n";
+    for (const Place& place : places) {
+      out_ += fmt::format("<li>{}, {}: {}</li>\n", pieceName(place.piece),
+                          escaped(place.spot->place), escaped(describe(*place.spot)));
+    }
+    out_ += "</ul>\n";
   }
 
   void beginTable(const char* title, const std::vector<const char*>& words,

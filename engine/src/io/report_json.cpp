@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "io/report_data.h"
@@ -47,6 +49,40 @@ Json toJson(const UnfoldCheck& check) {
           {"flippedFaces", check.flippedFaces},
           {"crossings", check.crossings},
           {"maxTurnError", check.maxTurnError}};
+}
+
+/// Least, mean (by area on the body) and greatest of the kinds of strain, and the worst places.
+Json toJson(const PieceStrain& strain, const Mesh& mesh) {
+  Json json;
+  for (const StrainKind kind : kStrainKinds) {
+    Spread spread{std::numeric_limits<double>::infinity(), 0,
+                  -std::numeric_limits<double>::infinity()};
+    double total = 0;
+    for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+      const double value = strain.faces[FaceId(f)].of(kind), area = mesh.area(FaceId(f));
+      spread.min = std::min(spread.min, value);
+      spread.max = std::max(spread.max, value);
+      spread.mean += area * value;
+      total += area;
+    }
+    spread.mean = total > 0 ? spread.mean / total : 0;
+    json[std::string(toString(kind))] = toJson(spread);
+    if (const auto limit = strain.limits.of(kind)) {
+      json[std::string(toString(kind))]["limit"] = *limit;
+    }
+  }
+  json["overLimit"] = strain.overLimit;
+  json["worst"] = Json::array();
+  for (const StrainSpot& spot : strain.worst) {
+    Json place{{"vertex", spot.vertex.index()},
+               {"kind", toString(spot.kind)},
+               {"value", spot.value},
+               {"place", spot.place},
+               {"words", describe(spot)}};
+    place["limit"] = spot.limit ? Json(*spot.limit) : Json(nullptr);
+    json["worst"].push_back(std::move(place));
+  }
+  return json;
 }
 
 Json toJson(const DevelopedPiece& developed) {
@@ -111,6 +147,7 @@ Json pieceJson(const Pattern& pattern, const ReportData& data, std::size_t index
                           {"areaRatio", toJson(report.areaRatio)},
                           {"meanAreaError", flat->meanAreaError},
                           {"maxAreaError", flat->maxAreaError}};
+    if (report.strain) json["strain"] = toJson(*report.strain, *piece.mesh);
     json["check"] = toJson(flat->check);
     if (index < pattern.developed.size() && pattern.developed[index]) {
       json["developed"] = toJson(*pattern.developed[index]);

@@ -10,6 +10,7 @@
 
 #include "io/markup.h"
 #include "io/sheet_drawing.h"
+#include "io/strain_map.h"
 
 namespace toile {
 namespace {
@@ -30,8 +31,12 @@ std::string number(double mm) {
 
 class Writer {
  public:
-  explicit Writer(const Pattern& pattern)
-      : pattern_(pattern), sheet_(drawSheet(pattern)), out_(std::back_inserter(text_)) {}
+  /// @param strain shown beneath the lines; null for none
+  Writer(const Pattern& pattern, const StrainField* strain)
+      : pattern_(pattern),
+        strain_(strain),
+        sheet_(drawSheet(pattern)),
+        out_(std::back_inserter(text_)) {}
 
   std::string write() {
     const Eigen::Vector2d size = sheet_.box.size() + Eigen::Vector2d(2, 2) * kMarginMm;
@@ -42,8 +47,11 @@ class Writer {
                    "version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
                    "<title>{2}</title>\n",
                    number(size.x()), number(size.y()), escaped(pattern_.document.design->name));
-    for (std::size_t i = 0; i < sheet_.pieces.size(); ++i)
+    for (std::size_t i = 0; i < sheet_.pieces.size(); ++i) {
+      if (strain_ != nullptr) writeStrain(i);
       writePiece(sheet_.pieces[i], pattern_.pieces[i]);
+    }
+    if (strain_ != nullptr) text_ += strainLegendSvg(*strain_);
     text_ += "</svg>\n";
     return std::move(text_);
   }
@@ -52,6 +60,22 @@ class Writer {
   /// The sheet's y is up, the file's is down: the one place where it turns.
   [[nodiscard]] Eigen::Vector2d toFile(const Eigen::Vector2d& p) const {
     return {p.x() - sheet_.box.min.x() + kMarginMm, sheet_.box.max.y() - p.y() + kMarginMm};
+  }
+
+  void writeStrain(std::size_t index) {
+    const std::size_t source = pattern_.pieceIndex[index];
+    fmt::format_to(out_,
+                   "<g inkscape:groupmode=\"layer\" inkscape:label=\"{} strain\" "
+                   "stroke-width=\"0.3\" stroke-linejoin=\"round\">\n",
+                   escaped(pattern_.pieces[index].name));
+    const Placement& placement = pattern_.layout.placements[index];
+    for (const StrainShade& shade :
+         strainShades(*strain_, pattern_, source,
+                      [&](const Eigen::Vector2d& p) { return toFile(placement.apply(p)); })) {
+      fmt::format_to(out_, "<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", toHex(shade.colour),
+                     shade.path);
+    }
+    text_ += "</g>\n";
   }
 
   void writePiece(const PieceDrawing& drawing, const PatternPiece& piece) {
@@ -114,6 +138,7 @@ class Writer {
   }
 
   const Pattern& pattern_;
+  const StrainField* strain_;
   SheetDrawing sheet_;
   std::string text_;
   std::back_insert_iterator<std::string> out_;
@@ -122,7 +147,12 @@ class Writer {
 }  // namespace
 
 std::string writeSvg(const Pattern& pattern) {
-  return Writer(pattern).write();
+  return Writer(pattern, nullptr).write();
+}
+
+std::string writeStrainSvg(const Pattern& pattern) {
+  const StrainField strain(pattern, StrainMap::Area);
+  return Writer(pattern, &strain).write();
 }
 
 }  // namespace toile

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toile/layout/pattern.h"
 
+#include "toile/core/parallel.h"
+
 namespace toile {
 
 bool Pattern::isComplete() const {
@@ -10,6 +12,22 @@ bool Pattern::isComplete() const {
     if (i < failures.size() && failures[i]) return false;
   }
   return true;
+}
+
+const Piece& Pattern::shapedPiece(std::size_t index) const {
+  const bool isProcessed = index < developed.size() && developed[index];
+  return isProcessed ? developed[index]->piece : cut.pieces[index];
+}
+
+std::vector<std::optional<PieceStrain>> measureStrains(const Pattern& pattern) {
+  std::vector<std::optional<PieceStrain>> strains(pattern.cut.pieces.size());
+  parallelFor(pattern.pieces.size(), [&](std::size_t k) {
+    const std::size_t i = pattern.pieceIndex[k];
+    if (!pattern.flats[i]) return;
+    strains[i] = measureStrain(pattern.document, pattern.shapedPiece(i), *pattern.flats[i],
+                               pattern.pieces[k]);
+  });
+  return strains;
 }
 
 }  // namespace toile

@@ -23,7 +23,9 @@ struct Product {
   std::function<Result<std::string>()> make;
 };
 
-std::vector<Product> productsOf(const Pattern& pattern, Progress* progress) {
+std::vector<Product> productsOf(const Pattern& pattern,
+                                const std::vector<std::optional<PieceStrain>>& strains,
+                                Progress* progress) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
        [&, progress] { return renderPattern(pattern, {}, progress); }},
@@ -34,14 +36,21 @@ std::vector<Product> productsOf(const Pattern& pattern, Progress* progress) {
        [&] { return Result<std::string>(writeReportJson(pattern)); }},
       {"pattern.svg", "the pieces as vector drawing",
        [&] { return Result<std::string>(writeSvg(pattern)); }},
+      {"strain.svg", "the same drawing over colours of how much the cloth must give",
+       [&] { return Result<std::string>(writeStrainSvg(pattern)); }},
   };
   const std::vector<std::string> names = pieceFileNames(pattern.cut);
   for (std::size_t i = 0; i < names.size(); ++i) {
-    if (!pattern.flats[i]) continue;
+    if (!strains[i]) continue;
     products.push_back({"pieces/" + names[i], "this piece in 3D and flat, with its lines", [&, i] {
-                          return Result<std::string>(
-                              writePieceObj(pattern.cut.pieces[i], *pattern.flats[i]));
+                          return Result<std::string>(writePieceObj(
+                              pattern.cut.pieces[i], *pattern.flats[i], &*strains[i]));
                         }});
+    products.push_back(
+        {"pieces/" + plyFileName(names[i]), "the same with its strain per face, to plot", [&, i] {
+           return Result<std::string>(
+               writePiecePly(pattern.cut.pieces[i], *pattern.flats[i], *strains[i]));
+         }});
   }
   return products;
 }
@@ -56,7 +65,8 @@ Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesyste
   Pattern told = pattern;
   told.findings.insert(told.findings.end(), dxf.findings.begin(), dxf.findings.end());
 
-  const std::vector<Product> products = productsOf(told, progress);
+  const std::vector<std::optional<PieceStrain>> strains = measureStrains(told);
+  const std::vector<Product> products = productsOf(told, strains, progress);
   std::vector<Result<std::string>> contents(products.size(), std::string());
   parallelFor(products.size(), [&](std::size_t i) { contents[i] = products[i].make(); });
   if (isCancelled(progress)) {

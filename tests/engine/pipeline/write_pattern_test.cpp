@@ -93,7 +93,7 @@ TEST(ReportedFiles, GivesOnlyPlainPieceNames) {
   EXPECT_TRUE(reportedFiles(report).empty());
   writeText(report, R"({"format":"toile-report","pieces":[{"file":"pieces/a.obj"},{"file":null},
       {"file":"pieces/../../b.obj"},{"file":"/etc/c.obj"},{"file":"pieces/d.txt"},7]})");
-  EXPECT_THAT(reportedFiles(report), testing::ElementsAre("pieces/a.obj"));
+  EXPECT_THAT(reportedFiles(report), testing::ElementsAre("pieces/a.obj", "pieces/a.ply"));
   for (const char* other : {"{\"format\":7}", "[", "{\"format\":\"toile-report\",\"pieces\":3}"}) {
     writeText(report, other);
     EXPECT_TRUE(reportedFiles(report).empty()) << other;

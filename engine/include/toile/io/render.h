@@ -33,6 +33,15 @@ enum class RenderPieces {
   None
 };
 
+/// What the colours of RenderPieces::Strain tell.
+enum class StrainMap {
+  Area,    ///< how much the area of the cloth must give
+  Along,   ///< how much it must stretch along the grain
+  Across,  ///< across it
+  Shear,
+  AreaError  ///< the article's map: |A2/A3 - 1| from 0 (blue) to 100 % (red)
+};
+
 struct RenderOptions {
   int width = 1600;   ///< px, 16..16000
   int height = 1000;  ///< px, 16..16000
@@ -43,6 +52,7 @@ struct RenderOptions {
   RenderStyle style = RenderStyle::Product;
   RenderLines lines = RenderLines::All;
   RenderPieces pieces = RenderPieces::Cloth;
+  StrainMap strain = StrainMap::Area;
   Ratio explode = Ratio();  ///< 0..2: how far the pieces stand off the model
   bool captions = true;     ///< name of the design, of the views
 };

@@ -11,4 +11,8 @@ namespace toile {
 /// with piece, curve and seam ids, no scaling transforms.
 std::string writeSvg(const Pattern& pattern);
 
+/// The same with a layer per piece beneath its lines that shows how much the area of the cloth must
+/// give, and a legend: to look at, not to cut from.
+std::string writeStrainSvg(const Pattern& pattern);
+
 }  // namespace toile

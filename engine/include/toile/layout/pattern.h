@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "toile/develop/develop.h"
+#include "toile/finish/strain.h"
 #include "toile/layout/layout.h"
 
 namespace toile {
@@ -29,6 +30,11 @@ struct Pattern {
 
   /// Every included piece was unfolded and passed its checks.
   [[nodiscard]] bool isComplete() const;
+  /// The piece in the shape that its plane is of: the processed one where there was processing.
+  [[nodiscard]] const Piece& shapedPiece(std::size_t index) const;
 };
+
+/// The strain of every pattern piece, parallel to `cut.pieces`; nothing for the others.
+[[nodiscard]] std::vector<std::optional<PieceStrain>> measureStrains(const Pattern& pattern);
 
 }  // namespace toile
