@@ -5,7 +5,7 @@
 
 #include "body/chains.h"
 #include "body/subdivision.h"
-#include "model/vertex_path.h"
+#include "model/mirror.h"
 #include "toile/core/assert.h"
 #include "toile/curve/geodesic.h"
 #include "toile/curve/subdivision.h"
@@ -44,9 +44,9 @@ void addPrincessLines(ReferenceModel& model) {
                          at(kHighHipRow, 8), at(kHipRow, kBackColumn - 1)});
   const VertexData<VertexId>& partner = model.symmetry->partner;
   model.curves["princess_front_l"] = front;
-  model.curves["princess_front_r"] = mirrored(*model.mesh, partner, front);
+  model.curves["princess_front_r"] = detail::mirrored(*model.mesh, partner, front);
   model.curves["princess_back_l"] = back;
-  model.curves["princess_back_r"] = mirrored(*model.mesh, partner, back);
+  model.curves["princess_back_r"] = detail::mirrored(*model.mesh, partner, back);
 }
 
 }  // namespace toile::body

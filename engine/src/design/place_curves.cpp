@@ -4,10 +4,10 @@
 #include <algorithm>
 #include <optional>
 
-#include "design/mirror.h"
 #include "design/section_loop.h"
 #include "design/single_places.h"
 #include "design/smooth_points.h"
+#include "model/mirror.h"
 #include "toile/curve/geodesic.h"
 #include "toile/design/design.h"
 
@@ -210,15 +210,17 @@ class CurvePlacer {
     return Way{std::move(kept), *std::move(path)};
   }
 
+  /// With a pairing the very same way; else the images of the data points, linked.
   Result<Way> mirrorImage(const PlacedCurve& original) {
-    Result<SurfacePath> path = detail::mirrored(model_, linker_, original.path);
-    if (!path) return path.error();
-    if (model_.symmetry->partner.empty()) return Way{path->points, *path};
     std::vector<SurfacePoint> points;
     for (const SurfacePoint& point : original.dataPoints) {
-      points.push_back(detail::mirrored(*model_.mesh, model_.symmetry->partner, point));
+      Result<SurfacePoint> image = detail::mirrored(model_, point);
+      if (!image) return image.error();
+      points.push_back(*std::move(image));
     }
-    return Way{std::move(points), *std::move(path)};
+    const auto& partner = model_.symmetry->partner;
+    if (partner.empty()) return link(std::move(points), original.path.closed);
+    return Way{std::move(points), detail::mirrored(*model_.mesh, partner, original.path)};
   }
 
   Result<std::vector<SurfacePoint>> resolve(const std::vector<Place>& controls, bool closed) {

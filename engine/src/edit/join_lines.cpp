@@ -91,10 +91,16 @@ Result<Document> joinCurves(const Document& document, const std::string& first,
   if (!targetA) return targetA.error();
   if (!targetB) return targetB.error();
   if (first == second) return closeCurve(document, first);
-  if (targetA->isMirrored || targetB->isMirrored) {
-    return Error{ErrorCode::CurveInvalid,
-                 "a live mirror image cannot be joined; unlink it first",
-                 {Element::curve(targetA->isMirrored ? first : second)}};
+  if (targetA->isMirrored && targetB->isMirrored && targetA->id != targetB->id) {
+    return joinCurves(document, targetA->id, targetB->id);  // the images follow
+  }
+  // A live image that is joined with anything else, its original too, is a curve of its own now.
+  for (const auto& [id, isMirrored] :
+       {std::pair{first, targetA->isMirrored}, std::pair{second, targetB->isMirrored}}) {
+    if (!isMirrored) continue;
+    const Result<WorkCurve> own = sketch.load(id);
+    if (!own) return own.error();
+    sketch.store(id, *own);
   }
   Result<WorkCurve> a = sketch.load(first), b = sketch.load(second);
   if (!a) return a.error();
@@ -119,12 +125,23 @@ Result<Document> joinCurves(const Document& document, const std::string& first,
   if (!made) return made.error();
   const double all = detail::arcsOf(mesh, *made)[made->linkCount()];
   const double startA = isAfter ? 0 : all - lengthA, startB = isAfter ? all - lengthB : 0;
-  const Result<void> movedB = sketch.moveHangers(second, [&](double f) {
-    const double along = (isTurned ? 1 - f : f) * lengthB;
-    return std::optional<Sketch::Moved>({first, std::clamp((startB + along) / all, 0.0, 1.0)});
-  });
-  if (!movedB) return movedB.error();
-  // Hangers of both have moved; images of the second stay as they are.
+  const auto onto = [&](const std::string& id) {
+    return [&, id](double f) {
+      const double along = (isTurned ? 1 - f : f) * lengthB;
+      return std::optional<Sketch::Moved>({id, std::clamp((startB + along) / all, 0.0, 1.0)});
+    };
+  };
+  if (const Result<void> moved = sketch.moveHangers(second, onto(first)); !moved) {
+    return moved.error();
+  }
+  // Where the first has a live image, that covers the second's; else those stay as they are.
+  const std::vector<std::string> images = sketch.imagesOf(first);
+  for (const std::string& image : images.empty() ? images : sketch.imagesOf(second)) {
+    if (const Result<void> moved = sketch.moveHangers(image, onto(images.front())); !moved) {
+      return moved.error();
+    }
+    if (const Result<void> removed = sketch.remove(image); !removed) return removed.error();
+  }
   if (const Result<void> removed = sketch.remove(second); !removed) return removed.error();
   const Result<void> stored = detail::storeAndMove(sketch, first, *made, [&](double f) {
     return std::optional<Sketch::Moved>(

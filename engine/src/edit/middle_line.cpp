@@ -4,11 +4,17 @@
 #include <algorithm>
 #include <limits>
 
-#include "design/mirror.h"
+#include "model/mirror.h"
 
 namespace toile::detail {
 
 using Eigen::Vector3d;
+
+namespace {
+
+constexpr double kOnMiddle = 1e-6;  ///< mm that a point of the middle line may lie beside its image
+
+}  // namespace
 
 MiddleLine::MiddleLine(const ReferenceModel& model) {
   if (!model.symmetry) return;
@@ -64,6 +70,12 @@ double sideOf(const ReferenceModel& model, const SurfacePoint& point) {
   if (symmetry.partner.empty()) return symmetry.normal.dot(p) - symmetry.offset;
   const SurfacePoint image = mirrored(*model.mesh, symmetry.partner, point);
   return 0.5 * symmetry.normal.dot(p - position(*model.mesh, image));
+}
+
+bool isOnMiddle(const ReferenceModel& model, const SurfacePoint& point) {
+  if (!model.symmetry) return false;
+  const Result<SurfacePoint> image = mirrored(model, point);
+  return image && (position(*model.mesh, *image) - position(*model.mesh, point)).norm() < kOnMiddle;
 }
 
 }  // namespace toile::detail

@@ -28,4 +28,7 @@ class MiddleLine {
 /// > 0 on the model's left, < 0 on its right; with a pairing by where the vertices' partners lie.
 [[nodiscard]] double sideOf(const ReferenceModel& model, const SurfacePoint& point);
 
+/// The point is its own mirror image.
+[[nodiscard]] bool isOnMiddle(const ReferenceModel& model, const SurfacePoint& point);
+
 }  // namespace toile::detail

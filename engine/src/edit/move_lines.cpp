@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Offset, moving, direction, kind and shared crossings of curves.
+// Offset, moving, direction and kind of curves.
 #include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
+#include "edit/middle_line.h"
+#include "edit/nodes.h"
 #include "edit/parts.h"
 #include "toile/curve/crossing.h"
 #include "toile/curve/curvature.h"
@@ -111,12 +113,17 @@ Result<Document> moveCurve(const Document& document, const std::string& curve,
   const Mesh& mesh = sketch.mesh();
   const Vector3d way = position(mesh, *end) - position(mesh, *start);
   SurfaceTracker tracker(sketch.model().mesh, *start);
+  std::optional<detail::MiddleLine> middle;
+  if (!sketch.imagesOf(target->id).empty()) middle.emplace(sketch.model());
   std::vector<SurfacePoint> moved;
+  std::vector<bool> onRail(work->data.size(), false);
   for (std::size_t i = 0; i < work->data.size(); ++i) {
     tracker.restart(work->data[i]);
     SurfacePoint point = tracker.moveTo(position(mesh, work->data[i]) + way);
     const bool isEnd = !work->closed && (i == 0 || i + 1 == work->data.size());
-    if (isEnd) {
+    if (isEnd && middle && detail::isOnMiddle(sketch.model(), work->data[i])) {
+      point = middle->nearest(mesh, position(mesh, point));
+    } else if (isEnd) {
       const ModelPoint was = toModelPoint(mesh, work->data[i]);
       std::vector<std::string> rails;
       for (const StylingCurve& other : sketch.design().curves) {
@@ -131,21 +138,28 @@ Result<Document> moveCurve(const Document& document, const std::string& curve,
         const PathFoot foot = nearestOnPath(mesh, detail::pathOf(*rail), position(mesh, point));
         point = rail->data[detail::insertData(mesh, *rail, foot.arc)];
         sketch.store(rails.front(), *rail);
+        onRail[i] = true;
       }
     }
     moved.push_back(point);
   }
   Result<WorkCurve> made = detail::makeWorkCurve(sketch.linker(), mesh, moved, work->closed);
   if (!made) return made.error().during("curve \"" + curve + "\"");
+  std::vector<detail::MovedNode> nodes;
   std::size_t next = 0;
   for (std::size_t i = 0; i < work->data.size(); ++i) {
     const auto found = std::find(made->data.begin() + static_cast<std::ptrdiff_t>(next),
                                  made->data.end(), moved[i]);
-    if (found == made->data.end()) continue;
-    next = static_cast<std::size_t>(found - made->data.begin());
-    made->isControl[next] = work->isControl[i];
-    made->isCorner[next] = work->isCorner[i];
+    // A point that fell on its neighbour is that one now.
+    if (found != made->data.end()) {
+      next = static_cast<std::size_t>(found - made->data.begin());
+      made->isControl[next] = work->isControl[i];
+      made->isCorner[next] = work->isCorner[i];
+    }
+    if (!onRail[i]) nodes.push_back({work->data[i], made->data[next], false});
   }
+  const Result<void> followed = detail::followNodes(sketch, target->id, *made, nodes);
+  if (!followed) return followed.error();
   sketch.store(target->id, *made);
   return sketch.document();
 }
@@ -182,68 +196,6 @@ Result<Document> setCurveKind(const Document& document, const std::string& curve
     if (kind != CurveKind::Elastic) styling.elasticRange.reset();
   }
   return sketch.document();
-}
-
-Result<Edited> shareCrossings(const Document& document, std::span<const std::string> curves) {
-  Sketch sketch(document);
-  std::vector<std::string> ids;
-  for (const StylingCurve& curve : document.design->curves) {
-    const auto target = sketch.targetOf(curve.id);
-    if (!target) return target.error();
-    const bool isNamed =
-        curves.empty() || std::find(curves.begin(), curves.end(), curve.id) != curves.end();
-    if (isNamed && !target->isMirrored) ids.push_back(curve.id);
-  }
-  for (const std::string& id : curves) {
-    if (const Result<std::size_t> known = sketch.indexOf(id); !known) return known.error();
-  }
-  const Mesh& mesh = sketch.mesh();
-  std::vector<WorkCurve> work;
-  std::vector<bool> isChanged(ids.size(), false);
-  for (const std::string& id : ids) {
-    Result<WorkCurve> loaded = sketch.load(id);
-    if (!loaded) return loaded.error();
-    work.push_back(*std::move(loaded));
-  }
-  for (std::size_t a = 0; a < ids.size(); ++a) {
-    for (std::size_t b = a + 1; b < ids.size(); ++b) {
-      for (WorkCurve* curve : {&work[a], &work[b]}) {
-        const Result<void> linked = detail::linkAll(sketch.linker(), *curve);
-        if (!linked) return linked.error();
-      }
-      // A link of rounding's size may have lost its face; such lines are left as they are.
-      if (!isValid(mesh, detail::pathOf(work[a])) || !isValid(mesh, detail::pathOf(work[b]))) {
-        continue;
-      }
-      for (const PathMeeting& meeting :
-           findMeetings(mesh, detail::pathOf(work[a]), detail::pathOf(work[b]))) {
-        const std::size_t inA = detail::insertData(mesh, work[a], meeting.a);
-        const std::size_t inB = detail::insertData(mesh, work[b], meeting.b);
-        if (!(work[b].data[inB] == work[a].data[inA])) {
-          work[b].data[inB] = work[a].data[inA];
-          for (SurfacePath& link : work[b].links) {
-            if (!(link.points.front() ==
-                  work[b].data[static_cast<std::size_t>(&link - work[b].links.data())]) ||
-                !(link.points.back() ==
-                  work[b].to(static_cast<std::size_t>(&link - work[b].links.data())))) {
-              link.points.clear();
-            }
-          }
-          const Result<void> linked = detail::linkAll(sketch.linker(), work[b]);
-          if (!linked) return linked.error();
-        }
-        isChanged[a] = isChanged[b] = true;
-      }
-    }
-  }
-  Edited edited;
-  for (std::size_t i = 0; i < ids.size(); ++i) {
-    if (!isChanged[i]) continue;
-    sketch.store(ids[i], work[i]);
-    edited.curves.push_back(ids[i]);
-  }
-  edited.document = sketch.document();
-  return edited;
 }
 
 }  // namespace toile

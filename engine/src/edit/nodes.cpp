@@ -154,9 +154,8 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
       // One point for both; the shift is rounding.
       const SurfacePoint shared = other->data[theirs];
       if (!(curve.data[mine] == shared)) {
-        curve.data[mine] = shared;
-        for (SurfacePath& link : curve.links) link.points.clear();
-        if (const Result<void> linked = linkAll(sketch.linker(), curve); !linked) return linked;
+        const Result<void> replaced = replaceData(sketch.linker(), mesh, curve, mine, shared);
+        if (!replaced) return replaced;
       }
       sketch.store(otherId, *other);
     }

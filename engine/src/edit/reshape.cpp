@@ -165,8 +165,12 @@ Result<Reshaper::Reshaped> Reshaper::reshape(const WorkCurve& old, const std::ve
     if (!again) return again.error();
     made.links[i] = *std::move(again);
   }
-  const std::size_t needed = made.closed ? 3 : 2;
-  if (made.data.size() < needed) {
+  std::size_t different = made.closed ? 0 : 1;
+  for (std::size_t i = 0; i < made.linkCount(); ++i) {
+    const double step = (position(mesh, made.to(i)) - position(mesh, made.from(i))).norm();
+    if (!(made.from(i) == made.to(i)) && step >= kSameDataPoint) ++different;
+  }
+  if (different < (made.closed ? 3U : 2U)) {
     return Error{ErrorCode::CurveInvalid, "the curve would shrink to a point", {}};
   }
   return result;

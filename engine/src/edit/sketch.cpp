@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "design/mirror.h"
 #include "design/section_loop.h"
+#include "model/mirror.h"
 
 namespace toile::detail {
 
@@ -134,7 +134,14 @@ Result<WorkCurve> Sketch::load(const std::string& id) {
   std::vector<std::size_t> corners;
   if (const auto* smooth = std::get_if<SmoothWay>(&curve.way)) corners = smooth->corners;
   if (const auto* view = std::get_if<ViewWay>(&curve.way)) corners = view->corners;
-  if (curve.mirrorOf && curve.dataPoints.empty()) return work;
+  if (curve.mirrorOf && curve.dataPoints.empty()) {
+    const Result<WorkCurve> original = load(*curve.mirrorOf);
+    if (original && original->data.size() == work->data.size()) {
+      work->isControl = original->isControl;
+      work->isCorner = original->isCorner;
+    }
+    return work;
+  }
   const Result<std::vector<SurfacePoint>> controls = controlPlaces(curve);
   if (!controls) return failed(controls.error());
   std::size_t from = 0;
@@ -154,7 +161,8 @@ Result<WorkCurve> Sketch::load(const std::string& id) {
   return work;
 }
 
-void Sketch::store(const std::string& id, const WorkCurve& curve) {
+void Sketch::store(const std::string& id, WorkCurve curve) {
+  settle(linker_, mesh(), curve);
   StylingCurve& styling = edit(id);
   styling.closed = curve.closed;
   styling.mirrorOf.reset();

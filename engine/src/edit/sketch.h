@@ -36,7 +36,7 @@ class Sketch {
   /// The curve on the surface.
   Result<WorkCurve> load(const std::string& id);
   /// Makes a curve on the surface the truth of a styling curve: data points, way, closed.
-  void store(const std::string& id, const WorkCurve& curve);
+  void store(const std::string& id, WorkCurve curve);
   StylingCurve& edit(const std::string& id);
   /// After the last curve. An empty id gets a new one; one that exists is refused.
   Result<std::string> add(StylingCurve curve);

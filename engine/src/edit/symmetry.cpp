@@ -5,10 +5,10 @@
 
 #include <algorithm>
 
-#include "design/mirror.h"
 #include "edit/middle_line.h"
 #include "edit/parts.h"
 #include "edit/reshape.h"
+#include "model/mirror.h"
 #include "toile/curve/subdivision.h"
 #include "toile/curve/tracking.h"
 
@@ -41,6 +41,21 @@ StylingCurve imageOf(const StylingCurve& original) {
   image.dataPoints.clear();
   image.way = SmoothWay{};
   image.mirrorOf = original.id;
+  return image;
+}
+
+/// The mirror image of a curve on the surface, data point by data point.
+Result<WorkCurve> imageOf(Sketch& sketch, const WorkCurve& original) {
+  WorkCurve image = original;
+  for (SurfacePoint& point : image.data) {
+    const Result<SurfacePoint> mirrored = detail::mirrored(sketch.model(), point);
+    if (!mirrored) return mirrored.error();
+    point = *mirrored;
+  }
+  image.links.clear();
+  if (const Result<void> linked = detail::linkAll(sketch.linker(), image); !linked) {
+    return linked.error();
+  }
   return image;
 }
 
@@ -97,20 +112,21 @@ Result<Edited> mirrorCurves(const Document& document, std::span<const std::strin
     if (!sketch.model().symmetry) return noSymmetry(id);
     StylingCurve image = imageOf(sketch.design().curves[*index]);
     image.id = sketch.freeId(mirroredId(id));
+    if (linked) {
+      const Result<std::string> added = sketch.add(image);
+      if (!added) return added.error();
+      if (const Result<WorkCurve> work = sketch.load(*added); !work) return work.error();
+      edited.curves.push_back(*added);
+      continue;
+    }
+    // A curve of its own: the images of the data points, and which of them are controls.
+    const Result<WorkCurve> original = sketch.load(id);
+    if (!original) return original.error();
+    Result<WorkCurve> work = imageOf(sketch, *original);
+    if (!work) return work.error().during("curve \"" + id + "\"");
     const Result<std::string> added = sketch.add(image);
     if (!added) return added.error();
-    Result<WorkCurve> work = sketch.load(*added);
-    if (!work) return work.error();
-    if (!linked) {
-      // Control points have their images too.
-      const Result<WorkCurve> original = sketch.load(id);
-      if (!original) return original.error();
-      for (std::size_t i = 0; i < original->data.size() && i < work->data.size(); ++i) {
-        work->isControl[i] = original->isControl[i];
-        work->isCorner[i] = original->isCorner[i];
-      }
-      sketch.store(*added, *work);
-    }
+    sketch.store(*added, *work);
     edited.curves.push_back(*added);
   }
   edited.document = sketch.document();
@@ -128,8 +144,6 @@ Result<Document> unlinkMirror(const Document& document, const std::string& curve
   }
   Result<WorkCurve> work = sketch.load(curve);
   if (!work) return work.error();
-  for (std::size_t i = 0; i < work->data.size(); i += 8) work->isControl[i] = true;
-  detail::markEnds(*work);
   sketch.store(curve, *work);
   return sketch.document();
 }
@@ -140,18 +154,14 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
   if (!target) return target.error();
   if (!sketch.model().symmetry) return noSymmetry(curve);
   const detail::MiddleLine middle(sketch.model());
-  if (target->isMirrored || middle.empty()) {
-    return Error{ErrorCode::CurveInvalid,
-                 target->isMirrored
-                     ? fmt::format("curve \"{}\" is a live mirror image already", curve)
-                     : "the model has no middle line",
-                 {Element::curve(curve)}};
+  if (middle.empty()) {
+    return Error{ErrorCode::CurveInvalid, "the model has no middle line", {Element::curve(curve)}};
   }
-  Result<WorkCurve> work = sketch.load(curve);
+  Result<WorkCurve> work = sketch.load(target->id);
   if (!work) return work.error();
   const Mesh& mesh = sketch.mesh();
   // The longest run of the curve on the kept side.
-  const double sign = kept == Side::Left ? 1 : -1;
+  const double sign = (kept == Side::Left) != target->isMirrored ? 1 : -1;
   const SurfacePath path = detail::pathOf(*work);
   const double all = length(mesh, path);
   const double touch = 1e-3 * mesh.meanEdgeLength();
@@ -226,6 +236,9 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
     detail::reverse(*half);
   }
   sketch.store(target->id, *half);
+  if (const auto images = sketch.imagesOf(target->id); !images.empty()) {
+    return Edited{sketch.document(), {target->id, images.front()}, {}};
+  }
   StylingCurve image = imageOf(sketch.edit(target->id));
   image.id = sketch.freeId(mirroredId(target->id));
   const Result<std::string> added = sketch.add(image);

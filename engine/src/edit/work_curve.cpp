@@ -154,6 +154,66 @@ std::size_t insertData(const Mesh& mesh, WorkCurve& curve, double arc) {
   return place.link + 1;
 }
 
+namespace {
+
+/// Links of fewer segments are the shortest of all.
+constexpr std::size_t kShortLink = 6;
+constexpr int kMostHalvings = 10;
+/// Ways that are nowhere farther apart are the same, mm.
+constexpr double kSameWay = 1e-6;
+
+bool isSameWay(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b) {
+  if (std::abs(length(mesh, a) - length(mesh, b)) > kSameWay) return false;
+  for (const double f : {0.25, 0.5, 0.75}) {
+    const double off =
+        (position(mesh, pointAtFraction(mesh, a, f)) - position(mesh, pointAtFraction(mesh, b, f)))
+            .norm();
+    if (off > kSameWay) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve) {
+  for (int round = 0; round < kMostHalvings; ++round) {
+    std::vector<double> halves;
+    const std::vector<double> arcs = arcsOf(mesh, curve);
+    for (std::size_t i = 0; i < curve.linkCount(); ++i) {
+      if (curve.links[i].faceOfSegment.size() < kShortLink) continue;
+      const Result<SurfacePath> again = linker.link(curve.from(i), curve.to(i));
+      if (!again || !isSameWay(mesh, curve.links[i], *again)) {
+        halves.push_back(0.5 * (arcs[i] + arcs[i + 1]));
+      }
+    }
+    if (halves.empty()) return;
+    for (const double arc : halves) insertData(mesh, curve, arc);
+  }
+}
+
+bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index, const SurfacePoint& point) {
+  std::vector<std::pair<std::size_t, SurfacePath>> made;
+  for (std::size_t i = 0; i < curve.linkCount(); ++i) {
+    const bool isFrom = i == index, isTo = (i + 1) % curve.data.size() == index;
+    if (!isFrom && !isTo) continue;
+    SurfacePath link = curve.links[i];
+    if (isFrom) link.points.front() = point;
+    if (isTo) link.points.back() = point;
+    if (!isValid(mesh, link)) return false;
+    made.emplace_back(i, std::move(link));
+  }
+  for (auto& [i, link] : made) curve.links[i] = std::move(link);
+  curve.data[index] = point;
+  return true;
+}
+
+Result<void> replaceData(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve,
+                         std::size_t index, const SurfacePoint& point) {
+  if (nudgeData(mesh, curve, index, point)) return {};
+  curve.data[index] = point;
+  return linkAll(linker, curve);
+}
+
 void rotate(WorkCurve& curve, std::size_t start) {
   const auto by = static_cast<std::ptrdiff_t>(start);
   std::rotate(curve.data.begin(), curve.data.begin() + by, curve.data.end());

@@ -45,6 +45,17 @@ Result<WorkCurve> makeWorkCurve(GeodesicLinker& linker, const Mesh& mesh,
 /// Makes the place at an arc length a data point, unless one lies there; the path stays.
 /// @return its index.
 std::size_t insertData(const Mesh& mesh, WorkCurve& curve, double arc);
+/// Puts a data point a rounding aside, where it is another curve's to the last bit; the way stays.
+/// @return false, and nothing changed, where the new point lies in none of the old one's faces.
+[[nodiscard]] bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index,
+                             const SurfacePoint& point);
+/// The same, with new links to the point where that is needed.
+Result<void> replaceData(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve,
+                         std::size_t index, const SurfacePoint& point);
+/// A part of a locally shortest link need not be the link between its own ends, where a way on the
+/// other side of a limb is shorter. Adds data points until linking anew gives the same curve, so
+/// that a stored curve is the one that was edited.
+void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve);
 /// The closed curve begun at another data point.
 void rotate(WorkCurve& curve, std::size_t start);
 void reverse(WorkCurve& curve);

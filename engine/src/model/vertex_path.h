@@ -10,10 +10,4 @@ namespace toile {
 /// A path along mesh edges. Precondition: each vertex is joined to the next by an edge.
 SurfacePath vertexPath(const Mesh& mesh, const std::vector<VertexId>& vertices, bool closed);
 
-/// The mirror image of a path or point under a pairing of the vertices.
-SurfacePoint mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
-                      const SurfacePoint& point);
-SurfacePath mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
-                     const SurfacePath& path);
-
 }  // namespace toile

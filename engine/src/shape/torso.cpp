@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "model/mirror.h"
 #include "model/vertex_path.h"
 #include "shape/level_path.h"
 #include "shape/parameters.h"
@@ -76,7 +77,7 @@ class NameFinder {
   }
   /// Closed: over the left to the back and over the right to the front again.
   void addClosed(const std::string& name, const SurfacePath& left) {
-    const SurfacePath right = mirrored(mesh_, torso_.partner, left);
+    const SurfacePath right = detail::mirrored(mesh_, torso_.partner, left);
     SurfacePath whole = left;
     whole.closed = true;
     for (std::size_t i = right.points.size() - 1; i > 0; --i) {
@@ -87,11 +88,11 @@ class NameFinder {
   }
   void addPair(const std::string& name, const SurfacePath& left) {
     names_.curves[name + "_l"] = left;
-    names_.curves[name + "_r"] = mirrored(mesh_, torso_.partner, left);
+    names_.curves[name + "_r"] = detail::mirrored(mesh_, torso_.partner, left);
   }
   void addPair(const std::string& name, const SurfacePoint& left) {
     names_.landmarks[name + "_l"] = left;
-    names_.landmarks[name + "_r"] = mirrored(mesh_, torso_.partner, left);
+    names_.landmarks[name + "_r"] = detail::mirrored(mesh_, torso_.partner, left);
   }
   /// The point of the path that goes farthest in a direction.
   [[nodiscard]] SurfacePoint farthest(const SurfacePath& path, const Vector3d& direction) const {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
+#include <numbers>
 #include <string>
 #include <vector>
 
@@ -18,11 +20,17 @@ namespace toile::test {
 class RandomEdits {
  public:
   RandomEdits(const ReferenceModel& model, unsigned seed)
-      : random_(*model.mesh, seed), size_((model.mesh->boxMax() - model.mesh->boxMin()).norm()) {}
+      : random_(*model.mesh, seed), size_((model.mesh->boxMax() - model.mesh->boxMin()).norm()) {
+    view_.target = 0.5 * (model.mesh->boxMax() + model.mesh->boxMin());
+    view_.eye = view_.target - Eigen::Vector3d(0, 4 * size_, 0);
+    view_.height = size_;
+    view_.perspective = false;
+  }
 
   struct Step {
     std::string name;
     Result<Document> document;
+    std::string curve{};  ///< that was pulled
   };
   Step next(const Document& document) {
     const auto of = [](std::string name, Result<Edited> edited) -> Step {
@@ -85,8 +93,12 @@ class RandomEdits {
         return {"remove control", removeControl(document, a, f, Length::mm(0.05 * size_))};
       case 21:
         return of("dart", drawDart(document, a, random_.point()));
+      case 22:
+        return of("go on", continueStroke(document, a, view_, stroke(document, a)));
+      case 23:
+        return of("draw over", drawOver(document, a, view_, stroke(document, a)));
       default:
-        return {"drag", drag(document, a, f, g)};
+        return {"drag", drag(document, a, f, g), a};
     }
   }
 
@@ -106,7 +118,18 @@ class RandomEdits {
     std::vector<SurfacePoint> points{start};
     const std::size_t count = 2 + random_.below(4);
     while (points.size() < count) points.push_back(beside(document, points.back(), 0.08));
-    switch (random_.below(5)) {
+    switch (random_.below(7)) {
+      case 5:
+        return drawStroke(document, view_,
+                          strokeFrom(screen(position(*document.model->mesh, start))));
+      case 6: {
+        const Mesh& mesh = *document.model->mesh;
+        std::vector<VertexId> vertices;
+        for (const SurfacePoint& point : points) {
+          vertices.push_back(mesh.vertices(facesOf(mesh, point).front())[0]);
+        }
+        return drawAlongEdges(document, vertices);
+      }
       case 0:
         return drawGirth(document, start,
                          {random_.number() - 0.5, random_.number() - 0.5, random_.number()});
@@ -137,8 +160,29 @@ class RandomEdits {
     return drag->document();
   }
 
+  /// Where a place appears to an eye far in front of the model.
+  Eigen::Vector2d screen(const Eigen::Vector3d& place) const {
+    return {place.x() - view_.target.x(), place.z() - view_.target.z()};
+  }
+  /// A trembling stroke from there.
+  std::vector<StrokeSample> strokeFrom(Eigen::Vector2d at) {
+    std::vector<StrokeSample> samples;
+    double direction = 2 * std::numbers::pi * random_.number();
+    const double turn = random_.number() - 0.5, step = 0.004 * size_;
+    for (int i = 0; i < 40; ++i) {
+      samples.push_back({at, 0.01 * i, 1});
+      direction += 0.2 * turn + 0.2 * (random_.number() - 0.5);
+      at += step * Eigen::Vector2d(std::cos(direction), std::sin(direction));
+    }
+    return samples;
+  }
+  std::vector<StrokeSample> stroke(const Document& document, const std::string& curve) {
+    return strokeFrom(screen(position(*document.model->mesh, somePoint(document, curve))));
+  }
+
   SurfaceRandom random_;
   double size_;
+  View view_;
 };
 
 }  // namespace toile::test

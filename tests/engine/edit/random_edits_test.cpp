@@ -8,8 +8,10 @@
 #include <map>
 
 #include "random_edits.h"
+#include "support/curve_checks.h"
 #include "support/meshes.h"
 #include "support/result_printing.h"
+#include "support/test_data.h"
 #include "toile/curve/geodesic.h"
 #include "toile/design/design_file.h"
 #include "toile/shape/builtin.h"
@@ -29,78 +31,33 @@ int firstSequence() {
   return wanted != nullptr ? std::max(0, std::atoi(wanted)) : 0;
 }
 
-/// A ball of odd size: with a mirror plane but without a pairing.
+/// A ball with a mirror plane, but no pairing of its vertices.
 ReferenceModel ball() {
   Eigen::Matrix3d scale = Eigen::Vector3d(200, 140, 100).asDiagonal();
   ReferenceModel model = makeReferenceModel(
-      "ball", test::transformed(test::icosphere(1, 3), scale, Eigen::Vector3d(0.3, 0, 0)));
+      "ball", test::transformed(test::icosphere(1, 3), scale, Eigen::Vector3d::Zero()));
   model.symmetry = Symmetry{};
   return model;
 }
 
+/// The built-in body, a body made from a scan (where the test data is, else a torso), a ball.
 std::vector<ReferenceModel> bodies() {
   std::vector<ReferenceModel> made{ball()};
-  for (const char* name : {"builtin:torso@1", "builtin:bent-sleeve@1"}) {
-    Result<ReferenceModel> model = makeBuiltinModel(name);
-    EXPECT_TRUE(model) << model.error();
-    if (model) made.push_back(*std::move(model));
+  Result<ReferenceModel> builtin = makeBuiltinModel("builtin:body@1?size=EU38F");
+  EXPECT_TRUE(builtin) << builtin.error();
+  if (builtin) made.push_back(*std::move(builtin));
+  const auto file = test::findTestData("bodies/female_average.ply");
+  Result<ReferenceModel> third =
+      file ? readModel(*file, FileUnit::Millimetre) : makeBuiltinModel("builtin:torso@1");
+  EXPECT_TRUE(third) << third.error();
+  if (!third) return made;
+  if (file) {
+    auto partner = findSymmetryPairing(*third->mesh, Eigen::Vector3d::UnitX(), 0, 0.1);
+    EXPECT_TRUE(partner);
+    if (partner) third->symmetry = makeSymmetry(*third->mesh, *std::move(partner));
   }
+  made.push_back(*std::move(third));
   return made;
-}
-
-/// On the surface within 1e-12 of its size, and locally shortest between data points.
-void expectSound(const Document& document, GeodesicLinker& linker, const std::string& context) {
-  const Mesh& mesh = *document.model->mesh;
-  const double size = (mesh.boxMax() - mesh.boxMin()).norm();
-  std::vector<std::string> ids;
-  for (const StylingCurve& curve : document.design->curves) ids.push_back(curve.id);
-  const auto placed = placeCurves(*document.design, *document.model, ids, linker);
-  ASSERT_TRUE(placed) << context << ": " << placed.error();
-  for (const PlacedCurve& curve : *placed) {
-    ASSERT_TRUE(isValid(mesh, curve.path)) << context << ": " << curve.id;
-    for (std::size_t i = 0; i < curve.path.faceOfSegment.size(); ++i) {
-      // The middle of each segment is the point of its face that it names.
-      const SurfacePoint& a = curve.path.points[i];
-      const SurfacePoint& b = curve.path.points[(i + 1) % curve.path.points.size()];
-      const FaceId face = curve.path.faceOfSegment[i];
-      const SurfacePoint middle = makeSurfacePoint(
-          mesh, face, 0.5 * (barycentricIn(mesh, a, face) + barycentricIn(mesh, b, face)));
-      const double off =
-          (position(mesh, middle) - 0.5 * (position(mesh, a) + position(mesh, b))).norm();
-      ASSERT_LE(off, 1e-12 * size) << context << ": " << curve.id;
-    }
-    // Links are locally shortest: parts of the path from data point to data point.
-    std::size_t from = 0;
-    for (std::size_t d = 1; d < curve.dataPoints.size(); ++d) {
-      std::size_t to = from + 1;
-      while (to < curve.path.points.size() && !(curve.path.points[to] == curve.dataPoints[d])) ++to;
-      ASSERT_LT(to, curve.path.points.size())
-          << context << ": " << curve.id << " leaves out a point";
-      if (to > from + 1 &&
-          document.design->curves[static_cast<std::size_t>(&curve - placed->data())].mirrorOf ==
-              std::nullopt) {
-        SurfacePath link;
-        link.points.assign(curve.path.points.begin() + static_cast<std::ptrdiff_t>(from),
-                           curve.path.points.begin() + static_cast<std::ptrdiff_t>(to) + 1);
-        link.faceOfSegment.assign(
-            curve.path.faceOfSegment.begin() + static_cast<std::ptrdiff_t>(from),
-            curve.path.faceOfSegment.begin() + static_cast<std::ptrdiff_t>(to));
-        // Beside a segment of 1e-15 mm rounding decides what its angle is.
-        double shortest = size;
-        for (std::size_t k = 0; k + 1 < link.points.size(); ++k) {
-          shortest = std::min(
-              shortest,
-              (position(mesh, link.points[k]) - position(mesh, link.points[k + 1])).norm());
-        }
-        if (shortest < 1e-6) {
-          from = to;
-          continue;
-        }
-        ASSERT_LE(geodesicDefect(mesh, link), 1e-6) << context << ": " << curve.id;
-      }
-      from = to;
-    }
-  }
 }
 
 // Also: undo by value (the old document is not touched), save and load give equal bytes.
@@ -117,23 +74,40 @@ TEST(RandomEdits, NeverDamageADocument) {
     test::RandomEdits edits(model, static_cast<unsigned>(sequence + 1));
     Document document{std::make_shared<const Design>(), shared};
     std::string story;
+    // Undo by value: every document of the sequence, and a copy of it from when it was new.
+    std::vector<std::pair<Document, Design>> history{{document, *document.design}};
     for (int i = 0; i < kEdits; ++i) {
-      const Design before = *document.design;
       test::RandomEdits::Step step = edits.next(document);
       story += step.name + (step.document ? ", " : "!, ");
       const std::string context =
           "sequence " + std::to_string(sequence) + " on " + model.name + ": " + story;
-      ASSERT_TRUE(before == *document.design) << context << " changed what it was given";
       (step.document ? done[step.name].first : done[step.name].second) += 1;
       if (!step.document) {
         ASSERT_FALSE(step.document.error().message.empty());
         continue;
       }
+      const std::vector<std::string> sharing = test::sharingWith(*document.design, step.curve);
       document = *step.document;
+      history.emplace_back(document, *document.design);
+      if (step.name == "share" || step.name == "fair") {
+        test::expectAllShared(document, linker, context);
+      }
+      if (!sharing.empty()) {
+        test::expectStillShared(document, linker, step.curve, sharing, context);
+      }
       // Every edit leaves something that can be placed; looked at more closely now and then.
-      if (i % 3 == 2 || i + 1 == kEdits) expectSound(document, linker, context);
+      if (i % 5 == 4) test::expectSound(document, linker, context);
       if (testing::Test::HasFatalFailure()) return;
     }
+    for (const auto& [past, copy] : history) {
+      ASSERT_TRUE(*past.design == copy) << story << " changed a document that was handed on";
+    }
+    for (const StylingCurve& curve : document.design->curves) {
+      if (curve.dataPoints.empty() || !model.symmetry) continue;
+      test::expectMirrorOfMirror(document, curve.id, story);
+      break;
+    }
+    if (testing::Test::HasFatalFailure()) return;
     const std::string text = writeDesign(*document.design);
     const Result<Design> read = parseDesign(text, "saved");
     ASSERT_TRUE(read) << story << read.error();

@@ -28,7 +28,10 @@ Result<Edited> eraseStretch(const Document& document, const std::string& curve,
 Result<Document> removeCurve(const Document& document, const std::string& curve);
 
 /// Joins two open curves at their nearest ends into the first; a gap is bridged smoothly. The
-/// second is gone, and what hung on it hangs on the first.
+/// second is gone, and what hung on it hangs on the first. Two live mirror images: their originals
+/// are joined, and the image follows; so it is for the images of two curves that are joined. A live
+/// image and anything else, its original too: the image is a curve of its own first, so that a half
+/// and its image become one line over the middle.
 Result<Document> joinCurves(const Document& document, const std::string& first,
                             const std::string& second);
 /// Joins the ends of a curve with each other.
@@ -43,7 +46,9 @@ Result<Document> extendToCurve(const Document& document, const std::string& curv
 Result<Edited> offsetCurve(const Document& document, const std::string& curve, Length distance,
                            const std::string& id = {});
 /// Moves a whole curve over the surface, as the way from one point to the other says; each of its
-/// points stays on its limb. Ends that lie on other curves slide along them.
+/// points stays on its limb. Ends that lie on other curves slide along them (those of a half that
+/// meets its live mirror image: along the middle); curves that end on it are carried along, and
+/// crossings stay shared.
 Result<Document> moveCurve(const Document& document, const std::string& curve,
                            const SurfacePoint& from, const SurfacePoint& to);
 
@@ -52,7 +57,9 @@ Result<Document> reverseCurve(const Document& document, const std::string& curve
 Result<Document> setCurveKind(const Document& document, const std::string& curve, CurveKind kind);
 
 /// Makes the places where curves meet data points of all of them, bit for bit the same: crossings
-/// that stay shared when one of them is moved. Of all curves of the design if none are named.
+/// that stay shared when one of them is moved. Of all curves of the design if none are named; then
+/// those that cannot be put on the model are left out, with a finding "crossings-not-shared".
+/// Live mirror images have no data points, and are left out too.
 Result<Edited> shareCrossings(const Document& document, std::span<const std::string> curves = {});
 
 }  // namespace toile

@@ -22,7 +22,9 @@ enum class Side { Left, Right };
 
 /// Makes a curve that crosses the middle of the model, or ends on it, symmetric: the part on the
 /// kept side, and a live mirror image of it. Both join smoothly: their ends are one point on the
-/// middle line, and the kept half meets it square.
+/// middle line, and the kept half meets it square. They go on doing so when one is pulled, moved or
+/// faired: the end slides along the middle line and keeps its direction. Of a curve that has a live
+/// image already, or is one, both are made to meet so.
 /// @return CurveInvalid when the model has no symmetry, or nothing of the curve lies on that side.
 Result<Edited> makeSymmetric(const Document& document, const std::string& curve, Side kept);
 

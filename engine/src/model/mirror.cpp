@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "design/mirror.h"
+#include "model/mirror.h"
 
 #include <algorithm>
 
@@ -52,6 +52,19 @@ SurfacePoint mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
   return {SurfacePoint::InFace{image.face, weights}};
 }
 
+SurfacePath mirrored(const Mesh& mesh, const VertexData<VertexId>& partner,
+                     const SurfacePath& path) {
+  SurfacePath image;
+  image.closed = path.closed;
+  for (const SurfacePoint& point : path.points) {
+    image.points.push_back(mirrored(mesh, partner, point));
+  }
+  for (const FaceId face : path.faceOfSegment) {
+    image.faceOfSegment.push_back(mirroredFace(mesh, partner, face).face);
+  }
+  return image;
+}
+
 Result<SurfacePoint> mirrored(const ReferenceModel& model, const SurfacePoint& point) {
   if (!model.symmetry) {
     return Error{ErrorCode::CurveInvalid,
@@ -63,30 +76,6 @@ Result<SurfacePoint> mirrored(const ReferenceModel& model, const SurfacePoint& p
   const Eigen::Vector3d p = position(*model.mesh, point);
   const double distance = symmetry.normal.dot(p) - symmetry.offset;
   return model.index->closestPoint(p - 2 * distance * symmetry.normal).point;
-}
-
-Result<SurfacePath> mirrored(const ReferenceModel& model, GeodesicLinker& linker,
-                             const SurfacePath& path) {
-  if (!model.symmetry || model.symmetry->partner.empty()) {
-    std::vector<SurfacePoint> points;
-    for (const SurfacePoint& point : path.points) {
-      Result<SurfacePoint> image = mirrored(model, point);
-      if (!image) return image.error();
-      points.push_back(*std::move(image));
-    }
-    return linker.linkAll(points, path.closed);
-  }
-  const Mesh& mesh = *model.mesh;
-  const Symmetry& symmetry = *model.symmetry;
-  SurfacePath image;
-  image.closed = path.closed;
-  for (const SurfacePoint& point : path.points) {
-    image.points.push_back(mirrored(mesh, symmetry.partner, point));
-  }
-  for (const FaceId face : path.faceOfSegment) {
-    image.faceOfSegment.push_back(mirroredFace(mesh, symmetry.partner, face).face);
-  }
-  return image;
 }
 
 }  // namespace toile::detail

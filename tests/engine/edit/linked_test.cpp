@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What hangs together: live mirror images, lines that end on others, crossings.
+#include <gtest/gtest.h>
+
+#include <Eigen/Geometry>
+#include <cmath>
+
+#include "support/edit_support.h"
+#include "support/result_printing.h"
+#include "toile/edit/draw.h"
+#include "toile/edit/fair.h"
+#include "toile/edit/lines.h"
+#include "toile/edit/measure.h"
+#include "toile/edit/shape.h"
+#include "toile/edit/symmetry.h"
+
+namespace toile {
+namespace {
+
+using Eigen::Vector3d;
+using test::curveOf;
+using test::near;
+using test::pathOf;
+using test::placeOf;
+
+/// A yoke seam over the middle of the torso's front, made symmetric: "yoke" and its live image.
+Document withYoke() {
+  const Document document = test::documentOn("builtin:torso@1");
+  std::vector<SurfacePoint> points;
+  for (int i = 0; i < 5; ++i) {
+    points.push_back(near(document, {-80.0 + 40 * i, -500, 1000.0 + 15 * i}));
+  }
+  const auto drawn = drawThrough(document, points, false, {"yoke", "", CurveKind::Seam});
+  EXPECT_TRUE(drawn) << drawn.error();
+  const auto made = makeSymmetric(drawn->document, "yoke", Side::Left);
+  EXPECT_TRUE(made) << made.error();
+  return made->document;
+}
+
+/// Both halves begin at one point of the middle, and go on from each other without a kink: over
+/// the first 4 mm, where the line may bend and the torso does.
+void expectSmoothOnTheMiddle(const Document& document) {
+  const Mesh& mesh = *document.model->mesh;
+  const SurfacePath half = pathOf(document, "yoke"), image = pathOf(document, "yoke-mirror");
+  ASSERT_EQ(half.points.front(), image.points.front());
+  EXPECT_NEAR(placeOf(document, half.points.front()).x(), 0, 1e-6);
+  const auto along = [&](const SurfacePath& path) -> Vector3d {
+    const double reach = 4 / length(mesh, path);
+    return position(mesh, pointAtFraction(mesh, path, reach)) -
+           position(mesh, path.points.front());
+  };
+  const Vector3d a = along(half), b = along(image);
+  EXPECT_GT(std::atan2(a.cross(b).norm(), a.dot(b)), 155 * EIGEN_PI / 180);
+}
+
+TEST(LinkedSymmetry, HalvesStaySmoothlyJoined) {
+  const Document yoke = withYoke();
+  expectSmoothOnTheMiddle(yoke);
+  const auto handles = handlesOf(yoke, "yoke");
+  ASSERT_TRUE(handles) << handles.error();
+  ASSERT_GE(handles->size(), 3U);
+  // The end on the middle, pulled up and to the side: it slides along the middle.
+  for (const std::string& id : {std::string("yoke"), std::string("yoke-mirror")}) {
+    const auto own = handlesOf(yoke, id);
+    ASSERT_TRUE(own) << own.error();
+    const Vector3d start = placeOf(yoke, own->front().point);
+    const auto moved = moveHandle(yoke, id, {}, 0, near(yoke, start + Vector3d(12, -5, 12)));
+    ASSERT_TRUE(moved) << moved.error();
+    EXPECT_GT(placeOf(yoke, pathOf(*moved, "yoke").points.front()).z(), start.z() + 6);
+    expectSmoothOnTheMiddle(*moved);
+  }
+  // The next handle.
+  const SurfacePoint to = near(yoke, placeOf(yoke, (*handles)[1].point) + Vector3d(0, 0, 6));
+  const auto pulled = moveHandle(yoke, "yoke", {}, 1, to);
+  ASSERT_TRUE(pulled) << pulled.error();
+  expectSmoothOnTheMiddle(*pulled);
+  // The whole line; fairing.
+  const SurfacePoint from = (*handles)[1].point;
+  const auto shifted =
+      moveCurve(yoke, "yoke", from, near(yoke, placeOf(yoke, from) + Vector3d(5, 0, 20)));
+  ASSERT_TRUE(shifted) << shifted.error();
+  expectSmoothOnTheMiddle(*shifted);
+  const auto faired = fairCurves(yoke, std::vector<std::string>{"yoke"});
+  ASSERT_TRUE(faired) << faired.error();
+  expectSmoothOnTheMiddle(faired->document);
+}
+
+TEST(LinkedSymmetry, AHalfAndItsImageJoinToOneLine) {
+  const Document yoke = withYoke();
+  const double half = curveLength(yoke, "yoke")->mm();
+  const auto joined = joinCurves(yoke, "yoke", "yoke-mirror");
+  ASSERT_TRUE(joined) << joined.error();
+  EXPECT_EQ(joined->design->curves.size(), 1U);
+  EXPECT_FALSE(curveOf(*joined, "yoke").mirrorOf);
+  EXPECT_NEAR(curveLength(*joined, "yoke")->mm(), 2 * half, 1e-6 * half);
+  // Made symmetric again: the same halves but for the middle, which is drawn anew.
+  const auto again = makeSymmetric(*joined, "yoke", Side::Left);
+  ASSERT_TRUE(again) << again.error();
+  EXPECT_NEAR(curveLength(again->document, "yoke")->mm(), half, 0.06 * half);
+  // Of what is symmetric already there is no second image.
+  const auto twice = makeSymmetric(yoke, "yoke-mirror", Side::Right);
+  ASSERT_TRUE(twice) << twice.error();
+  EXPECT_EQ(twice->document.design->curves.size(), 2U);
+  expectSmoothOnTheMiddle(twice->document);
+}
+
+TEST(LinkedSymmetry, ImagesAreJoinedByTheirOriginals) {
+  const Document yoke = withYoke();
+  const auto parts = splitCurve(yoke, "yoke", std::vector<double>{0.5});
+  ASSERT_TRUE(parts) << parts.error();
+  ASSERT_EQ(parts->document.design->curves.size(), 4U);
+  const std::string second = parts->curves[1];
+  std::string image;
+  for (const StylingCurve& curve : parts->document.design->curves) {
+    if (curve.mirrorOf == second) image = curve.id;
+  }
+  const auto joined = joinCurves(parts->document, "yoke-mirror", image);
+  ASSERT_TRUE(joined) << joined.error();
+  EXPECT_EQ(joined->design->curves.size(), 2U);
+  EXPECT_EQ(curveOf(*joined, "yoke-mirror").mirrorOf, "yoke");
+  EXPECT_NEAR(curveLength(*joined, "yoke-mirror")->mm(), curveLength(yoke, "yoke")->mm(), 1e-6);
+}
+
+TEST(Lines, MovingCarriesWhatEndsOnThem) {
+  const Document document = test::documentOn("builtin:torso@1");
+  const auto line = drawThrough(
+      document,
+      std::vector<SurfacePoint>{near(document, {60, -500, 920}), near(document, {60, -500, 1000}),
+                                near(document, {60, -500, 1080})},
+      false, {"line", "", CurveKind::Seam});
+  ASSERT_TRUE(line) << line.error();
+  const SurfacePoint foot =
+      pointAtFraction(*document.model->mesh, pathOf(line->document, "line"), 0.5);
+  const auto branch = drawThrough(
+      line->document, std::vector<SurfacePoint>{foot, near(document, {120, -500, 1010})}, false,
+      {"branch", "", CurveKind::Seam});
+  ASSERT_TRUE(branch) << branch.error();
+  const auto shared = shareCrossings(branch->document);
+  ASSERT_TRUE(shared) << shared.error();
+  const auto moved = moveCurve(shared->document, "line", foot,
+                               near(document, placeOf(document, foot) + Vector3d(-15, 0, 0)));
+  ASSERT_TRUE(moved) << moved.error();
+  const auto& data = curveOf(*moved, "line").dataPoints;
+  const ModelPoint end = curveOf(*moved, "branch").dataPoints.front();
+  EXPECT_NE(std::find(data.begin(), data.end(), end), data.end());
+  EXPECT_LT(placeOf(document, *toSurfacePoint(*document.model->mesh, end)).x(),
+            placeOf(document, foot).x() - 8);
+  EXPECT_EQ(curveOf(*moved, "branch").dataPoints.back(),
+            curveOf(shared->document, "branch").dataPoints.back());
+}
+
+TEST(Network, SaysWhichCrossingsItCannotShare) {
+  const Document yoke = withYoke();
+  Design design = *yoke.design;
+  StylingCurve broken;
+  broken.id = "broken";
+  broken.way = SmoothWay{{ModelPoint{VertexId(99999999)}, ModelPoint{VertexId(1)}}};
+  design.curves.push_back(broken);
+  const Document document{std::make_shared<const Design>(design), yoke.model};
+  const auto shared = shareCrossings(document);
+  ASSERT_TRUE(shared) << shared.error();
+  ASSERT_EQ(shared->findings.size(), 1U);
+  EXPECT_EQ(shared->findings[0].code, "crossings-not-shared");
+  EXPECT_EQ(shared->findings[0].where, std::vector<Element>{Element::curve("broken")});
+  const std::vector<std::string> named{"broken"};
+  EXPECT_FALSE(shareCrossings(document, named));
+}
+
+}  // namespace
+}  // namespace toile
