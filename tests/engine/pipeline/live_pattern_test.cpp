@@ -47,8 +47,9 @@ std::string everything(const Pattern& pattern) {
 }
 
 std::size_t count(const LiveAnswer& answer, LivePiece::State state) {
-  return static_cast<std::size_t>(std::count_if(answer.pieces.begin(), answer.pieces.end(),
-                                                [&](const LivePiece& p) { return p.state == state; }));
+  return static_cast<std::size_t>(
+      std::count_if(answer.pieces.begin(), answer.pieces.end(),
+                    [&](const LivePiece& p) { return p.state == state; }));
 }
 std::size_t reused(const LiveAnswer& answer) {
   return static_cast<std::size_t>(std::count_if(answer.pieces.begin(), answer.pieces.end(),
