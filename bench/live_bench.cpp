@@ -15,9 +15,9 @@ namespace toile {
 namespace {
 
 std::optional<Document> open(benchmark::State& state) {
-  const Result<Document> document = openDocument(
-      std::filesystem::path(TOILE_SOURCE_DIR) / "tests/designs/wetsuit.toile",
-      bench::dataFile("bodies/female_average.ply").string(), FileUnit::Millimetre);
+  const Result<Document> document =
+      openDocument(std::filesystem::path(TOILE_SOURCE_DIR) / "tests/designs/wetsuit.toile",
+                   bench::dataFile("bodies/female_average.ply").string(), FileUnit::Millimetre);
   if (document) return *document;
   state.SkipWithError(document.error().message.c_str());
   return std::nullopt;

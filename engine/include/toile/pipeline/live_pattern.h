@@ -45,9 +45,9 @@ struct LiveAnswer {
 ///     live.update(dropped, Quality::Full);
 ///
 /// A piece is touched when its content changed: positions, faces, wires, target lengths. Pieces
-/// that were solved before, in this or an earlier answer (undo), are taken over as the same objects.
-/// For use off the thread that draws: calls block; one call at a time. A call that is stopped or
-/// fails leaves everything as it was.
+/// that were solved before, in this or an earlier answer (undo), are taken over as the same
+/// objects. For use off the thread that draws: calls block; one call at a time. A call that is
+/// stopped or fails leaves everything as it was.
 class LivePattern {
  public:
   explicit LivePattern(const MakeOptions& options = {});
