@@ -12,6 +12,7 @@ void addUnfold(CLI::App& app, Session& session);
 void addBody(CLI::App& app, Session& session);
 void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
+void addStudio(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

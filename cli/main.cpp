@@ -21,8 +21,8 @@ constexpr std::size_t kMaxThreads = 1024;
 
 // Sub-commands that design.md promises but that this version does not have: asking for one is
 // answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"transfer", "batch",   "scan",   "map",
-                                       "warp",     "convert", "studio", "check-sewing"};
+constexpr std::array kLaterCommands = {"transfer", "batch",   "scan",        "map",
+                                       "warp",     "convert", "check-sewing"};
 
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
@@ -114,6 +114,7 @@ int runProgram(int argc, char** argv) {
   addBody(app, session);
   addDevelop(app, session);
   addRender(app, session);
+  addStudio(app, session);
   addFit(app, session);
   app.require_subcommand(0, 1);
   app.footer(

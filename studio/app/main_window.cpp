@@ -1,0 +1,297 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "app/main_window.h"
+
+#include <QApplication>
+#include <QCloseEvent>
+#include <QDockWidget>
+#include <QDragEnterEvent>
+#include <QFileDialog>
+#include <QMenuBar>
+#include <QMessageBox>
+#include <QMimeData>
+#include <QPushButton>
+#include <QSettings>
+#include <QSplitter>
+#include <QStandardPaths>
+#include <QTabWidget>
+
+#include "app/pane_corners.h"
+#include "document/design_store.h"
+#include "panels/lists.h"
+#include "panels/selection_panel.h"
+#include "pattern/pattern_view.h"
+#include "toile/pipeline.h"
+#include "tools/drawing.h"
+#include "viewport/viewport.h"
+
+namespace toile::studio {
+
+namespace {
+
+constexpr const char* kBody = "builtin:body@1";
+constexpr int kBackupEvery = 5000;  // ms; at most 10 s of work may be lost
+
+std::filesystem::path recoveryFolder() {
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
+  return std::filesystem::path(data.toStdString()) / "recovery";
+}
+
+QString fromPath(const std::filesystem::path& path) {
+  return QString::fromStdString(path.string());
+}
+
+}  // namespace
+
+MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), recovery_(recoveryFolder()) {
+  setObjectName(QStringLiteral("mainWindow"));
+  setAcceptDrops(true);
+  resize(1600, 1000);
+  viewport_ = new Viewport(session_);
+  pattern_ = new PatternView(session_);
+  panes_ = new QSplitter;
+  panes_->setHandleWidth(5);
+  panes_->setChildrenCollapsible(false);
+  panes_->addWidget(viewport_);
+  panes_->addWidget(pattern_);
+  panes_->setSizes({510, 490});
+  setCentralWidget(panes_);
+  makeActions();
+  makeToolActions();
+  makeMenus();
+  makeBars();
+  makeDock();
+  makeStatusBar();
+  addPaneCorners(*viewport_, *pattern_, session_, actions_);
+  connectSession();
+  connect(&backupTimer_, &QTimer::timeout, this, &MainWindow::keepBackup);
+  backupTimer_.start(kBackupEvery);
+  messageTimer_.setSingleShot(true);
+  connect(&messageTimer_, &QTimer::timeout, this, [this] {
+    message_.clear();
+    showHint();
+  });
+}
+
+MainWindow::~MainWindow() {
+  // Widgets look at the session, which is a member and gone before QMainWindow deletes its
+  // children.
+  delete takeCentralWidget();
+  delete dock_;
+}
+
+void MainWindow::connectSession() {
+  connect(&session_, &Session::historyChanged, this, &MainWindow::showTitle);
+  connect(&session_, &Session::toolChanged, this, &MainWindow::showTool);
+  connect(&session_, &Session::toolMoved, this, &MainWindow::showHint);
+  connect(&session_, &Session::patternStateChanged, this, &MainWindow::showPatternState);
+  connect(&session_, &Session::told, this, &MainWindow::showMessage);
+  connect(viewport_, &Viewport::contextMenuWanted, this, &MainWindow::showContextMenu);
+}
+
+// ---- the work
+
+void MainWindow::newWork() {
+  if (!mayLeave()) return;
+  const Result<Document> document = emptyDocument(kBody);
+  if (!document) return showMessage(QString::fromStdString(document.error().message));
+  session_.start(*document, {}, tr("New, empty body"));
+}
+
+bool MainWindow::open(const std::filesystem::path& path) {
+  if (!mayLeave()) return false;
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  const Result<Document> document = openDocument(path);
+  QApplication::restoreOverrideCursor();
+  if (!document) {
+    QMessageBox::warning(this, tr("Open"),
+                         tr("%1 could not be opened: %2 The file was not changed.")
+                             .arg(fromPath(path.filename()),
+                                  QString::fromStdString(document.error().message) + '.'));
+    return false;
+  }
+  session_.start(*document, path, tr("Open %1").arg(fromPath(path.filename())));
+  return true;
+}
+
+bool MainWindow::offerLeftWork() {
+  const auto left = recovery_.findLeftWork();
+  if (!left) return false;
+  QMessageBox box(QMessageBox::Question, tr("Recovered work"),
+                  tr("Toile closed unexpectedly. Your work of %1 is here.")
+                      .arg(QLocale().toString(left->written, QLocale::ShortFormat)),
+                  QMessageBox::NoButton, this);
+  box.setObjectName(QStringLiteral("recovery"));
+  QPushButton* take = box.addButton(tr("Continue with it"), QMessageBox::AcceptRole);
+  const QAbstractButton* leave =
+      box.addButton(left->original.empty() ? tr("Begin anew") : tr("Open the last saved file"),
+                    QMessageBox::DestructiveRole);
+  box.setDefaultButton(take);
+  box.exec();
+  if (box.clickedButton() == leave) {
+    const std::filesystem::path original = left->original;
+    Recovery::discard(*left);
+    return !original.empty() && open(original);
+  }
+  const Result<Document> document = openDocument(left->backup);
+  if (!document) {
+    showMessage(QString::fromStdString(document.error().message));
+    return false;
+  }
+  session_.startRecovered(*document, left->backup, left->original);
+  keepBackup();  // in the copy of this program, before that of the other goes
+  Recovery::discard(*left);
+  return true;
+}
+
+void MainWindow::keepBackup() {
+  if (!session_.hasWork()) return;
+  if (!session_.isUnsaved()) return recovery_.forget();
+  const auto kept = recovery_.keep(session_.document(), session_.origin(), session_.path());
+  if (!kept) showMessage(tr("No backup: %1").arg(QString::fromStdString(kept.error().message)));
+}
+
+void MainWindow::openWithDialog() {
+  const QString file =
+      QFileDialog::getOpenFileName(this, tr("Open"), {}, tr("Designs (*.toile);;All files (*)"));
+  if (!file.isEmpty()) open(file.toStdString());
+}
+
+bool MainWindow::save() {
+  return session_.path().empty() ? saveAs() : saveTo(session_.path());
+}
+
+bool MainWindow::saveAs() {
+  QString file = QFileDialog::getSaveFileName(this, tr("Save as"), session_.title() + ".toile",
+                                              tr("Designs (*.toile)"));
+  if (file.isEmpty()) return false;
+  if (!file.endsWith(QStringLiteral(".toile"))) file += QStringLiteral(".toile");
+  return saveTo(file.toStdString());
+}
+
+bool MainWindow::saveTo(const std::filesystem::path& path) {
+  for (;;) {
+    const Result<void> saved = session_.save(path);
+    if (saved) {
+      showMessage(tr("Saved as %1").arg(fromPath(path.filename())));
+      return true;
+    }
+    QMessageBox box(QMessageBox::Warning, tr("Not saved"),
+                    tr("Not saved: %1. Your last saved file is untouched and your work is still "
+                       "here.")
+                        .arg(QString::fromStdString(saved.error().message)),
+                    QMessageBox::NoButton, this);
+    const QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere"), QMessageBox::AcceptRole);
+    const QAbstractButton* again = box.addButton(tr("Try again"), QMessageBox::ActionRole);
+    box.addButton(QMessageBox::Cancel);
+    box.exec();
+    if (box.clickedButton() == elsewhere) return saveAs();
+    if (box.clickedButton() != again) return false;
+  }
+}
+
+bool MainWindow::mayLeave() {
+  if (!session_.hasWork() || !session_.isUnsaved()) return true;
+  QMessageBox box(QMessageBox::Question, tr("Toile"),
+                  tr("Keep the changes to %1?").arg(session_.title()), QMessageBox::NoButton, this);
+  QPushButton* keep = box.addButton(tr("Save"), QMessageBox::AcceptRole);
+  const QAbstractButton* discard = box.addButton(tr("Discard"), QMessageBox::DestructiveRole);
+  QPushButton* stay = box.addButton(tr("Stay"), QMessageBox::RejectRole);
+  box.setDefaultButton(keep);
+  box.setEscapeButton(stay);
+  box.exec();
+  if (box.clickedButton() == static_cast<QAbstractButton*>(keep)) return save();
+  return box.clickedButton() == discard;
+}
+
+void MainWindow::closeEvent(QCloseEvent* event) {
+  if (!mayLeave()) return event->ignore();
+  backupTimer_.stop();
+  recovery_.forget();
+  event->accept();
+}
+
+void MainWindow::dragEnterEvent(QDragEnterEvent* event) {
+  if (event->mimeData()->hasUrls()) event->acceptProposedAction();
+}
+
+void MainWindow::dropEvent(QDropEvent* event) {
+  for (const QUrl& url : event->mimeData()->urls()) {
+    if (url.isLocalFile()) {
+      open(url.toLocalFile().toStdString());
+      return;
+    }
+  }
+}
+
+void MainWindow::exportPattern() {
+  if (!session_.pattern() || session_.pattern()->pieces.empty()) {
+    return showMessage(tr("There is nothing to export yet: no piece is closed."));
+  }
+  const QString folder =
+      QFileDialog::getExistingDirectory(this, tr("Export the pattern to a folder"));
+  if (!folder.isEmpty()) exportTo(folder.toStdString());
+}
+
+bool MainWindow::exportTo(const std::filesystem::path& folder) {
+  if (!session_.isPatternCurrent()) {
+    showMessage(tr("The pattern is being updated; export it in a moment."));
+    return false;
+  }
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  const Result<WrittenPattern> written = writePattern(*session_.pattern(), folder);
+  QApplication::restoreOverrideCursor();
+  if (!written) {
+    QMessageBox::warning(this, tr("Export"), QString::fromStdString(written.error().message));
+    return false;
+  }
+  showMessage(tr("%n files written to %1", nullptr, static_cast<int>(written->files.size()))
+                  .arg(fromPath(folder)));
+  return true;
+}
+
+// ---- what is shown
+
+void MainWindow::setTheme(Theme theme) {
+  applyTheme(*qApp, theme);
+  actions_.redrawIcons();
+  viewport_->themeChanged();
+  pattern_->update();
+  QSettings().setValue(QStringLiteral("theme"), theme == Theme::Dark ? "dark" : "light");
+  Q_EMIT session_.toolChanged();
+  Q_EMIT session_.historyChanged();
+  Q_EMIT session_.patternChanged();
+}
+
+void MainWindow::showPanes(bool body, bool pattern) {
+  viewport_->setVisible(body);
+  pattern_->setVisible(pattern);
+}
+
+void MainWindow::showStrain(bool on) {
+  viewport_->setColouring(on ? BodyColouring::Strain : BodyColouring::Fabric, StrainMeasure::Area,
+                          0.2, 0);
+}
+
+void MainWindow::showTitle() {
+  setWindowTitle(tr("%1[*] – Toile").arg(session_.title()));
+  setWindowModified(session_.isUnsaved());
+  actions_["undo"]->setEnabled(session_.history().canUndo());
+  actions_["redo"]->setEnabled(session_.history().canRedo());
+  const auto& steps = session_.history().steps();
+  const std::size_t at = session_.history().at();
+  actions_["undo"]->setStatusTip(session_.history().canUndo() ? steps[at].name : QString());
+}
+
+void MainWindow::showMessage(const QString& sentence) {
+  message_ = sentence;
+  messageTimer_.start(6000);
+  showHint();
+}
+
+void MainWindow::setKind(CurveKind kind) {
+  DrawingOptions options = session_.options();
+  options.kind = kind;
+  session_.setOptions(options);
+}
+
+}  // namespace toile::studio

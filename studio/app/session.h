@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QObject>
+#include <QString>
+#include <filesystem>
+#include <memory>
+#include <optional>
+
+#include "app/units.h"
+#include "document/history.h"
+#include "document/piece_finder.h"
+#include "jobs/pattern_worker.h"
+#include "tools/tool.h"
+
+namespace toile::studio {
+
+/// One work: document, history, selection, tool and live pattern. What windows show, they read
+/// from here, and they hear of changes by signals; they hold no state of the work themselves.
+class Session final : public QObject, public ToolHost {
+  Q_OBJECT
+ public:
+  explicit Session(QObject* parent = nullptr);
+  ~Session() override;
+
+  // ---- the work
+  /// Begins with a document. An empty path means: not saved yet.
+  void start(const Document& document, const std::filesystem::path& path, const QString& stepName);
+  /// Goes on with work that was left behind: it counts as unsaved.
+  void startRecovered(const Document& document, const std::filesystem::path& backup,
+                      const std::filesystem::path& original);
+  /// From where relative names of models count.
+  [[nodiscard]] const std::filesystem::path& origin() const { return origin_; }
+  [[nodiscard]] bool hasWork() const { return history_.has_value(); }
+  [[nodiscard]] const History& history() const { return *history_; }
+  void undo();
+  void redo();
+  void jumpTo(std::size_t step);
+  /// The document as it is shown: of a preview while there is one.
+  [[nodiscard]] const Document& shown() const;
+  [[nodiscard]] bool isPreview() const { return preview_.has_value(); }
+
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+  [[nodiscard]] QString title() const;
+  [[nodiscard]] bool isUnsaved() const;
+  /// Writes the whole file, then puts it in place of the old one.
+  Result<void> save(const std::filesystem::path& path);
+
+  // ---- pattern
+  /// The last pattern that could be made; null before the first. Not of the shown lines while
+  /// isPatternCurrent() is false.
+  [[nodiscard]] const std::shared_ptr<const Pattern>& pattern() const { return pattern_; }
+  [[nodiscard]] bool isPatternCurrent() const { return patternIsCurrent_; }
+  [[nodiscard]] bool isPatternPreview() const { return patternIsPreview_; }
+  [[nodiscard]] const std::optional<Error>& patternError() const { return patternError_; }
+  [[nodiscard]] PatternWorker& worker() { return worker_; }
+
+  // ---- tools
+  void setTool(ToolId id);
+  [[nodiscard]] Tool& tool() { return *tool_; }
+  [[nodiscard]] const Tool& tool() const { return *tool_; }
+  void setScreen(const Screen& screen) { screen_ = screen; }
+  void setOptions(const DrawingOptions& options);
+  void setUnit(LengthUnit unit);
+  [[nodiscard]] LengthUnit unit() const { return unit_; }
+  /// An event for the tool; everything that shows tools is told.
+  void pointer(PointerAction action, const PointerEvent& event);
+  bool key(ToolKey key);
+  void setHover(const Selection& hover);  ///< of the pattern; the body's comes from the tool
+  [[nodiscard]] const Selection& hover() const { return hover_; }
+
+  // ---- ToolHost
+  [[nodiscard]] const Document& document() const override { return history_->current(); }
+  [[nodiscard]] const PlacedLines& lines() const override { return lines_; }
+  [[nodiscard]] const Screen& screen() const override { return screen_; }
+  [[nodiscard]] const DrawingOptions& options() const override { return options_; }
+  [[nodiscard]] const Selection& selection() const override { return selection_; }
+  [[nodiscard]] const std::vector<std::vector<Eigen::Vector3d>>& middle() const override {
+    return middle_;
+  }
+  [[nodiscard]] std::optional<std::string> pieceAt(const SurfacePoint& point) const override;
+  [[nodiscard]] QString lengthText(double mm) const override;
+  void select(const Selection& selection) override;
+  void preview(const Document& document, bool withPattern) override;
+  void dropPreview() override;
+  void commit(const QString& name, const Document& document) override;
+  void tell(const QString& sentence) override;
+
+ Q_SIGNALS:
+  void workStarted();   ///< another document, maybe another body
+  void linesChanged();  ///< what is drawn on the body
+  void historyChanged();
+  void selectionChanged();
+  void patternChanged();
+  void patternStateChanged();
+  void toolChanged();  ///< another tool, or other options
+  void toolMoved();    ///< hint, overlay or cursor may be others
+  void hoverChanged();
+  void told(const QString& sentence);
+
+ private:
+  void showDocument(const Document& document);
+  void take(const PatternAnswer& answer);
+  void afterJump();
+
+  std::optional<History> history_;
+  std::filesystem::path path_;
+  std::filesystem::path origin_;  ///< from where relative names of models count
+  std::shared_ptr<const Design> saved_;
+  std::optional<Document> preview_;
+  PlacedLines lines_;
+  std::vector<std::vector<Eigen::Vector3d>> middle_;
+  Selection selection_, hover_;
+  std::unique_ptr<Tool> tool_;
+  DrawingOptions options_;
+  LengthUnit unit_ = LengthUnit::Millimetre;
+  Screen screen_;
+
+  PatternWorker worker_;
+  std::shared_ptr<const Pattern> pattern_;
+  std::unique_ptr<PieceFinder> pieces_;  ///< of the last full pattern
+  std::vector<std::string> pieceIds_;    ///< of the same
+  std::optional<Error> patternError_;
+  bool patternIsCurrent_ = false;
+  bool patternIsPreview_ = false;
+};
+
+}  // namespace toile::studio

@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "panels/lists.h"
+
+#include <QSignalBlocker>
+
+#include "app/icons.h"
+#include "app/palette.h"
+
+namespace toile::studio {
+
+namespace {
+
+constexpr int kId = Qt::UserRole;
+constexpr int kIsLine = Qt::UserRole + 1;
+
+QString nameOf(const Piece& piece) {
+  return QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
+}
+
+}  // namespace
+
+PiecesList::PiecesList(Session& session, QWidget* parent) : QListWidget(parent), session_(session) {
+  setAccessibleName(tr("Pieces"));
+  setObjectName(QStringLiteral("pieces"));
+  connect(&session, &Session::patternChanged, this, &PiecesList::refill);
+  connect(&session, &Session::selectionChanged, this, &PiecesList::showSelection);
+  connect(this, &QListWidget::itemSelectionChanged, this, [this] {
+    const auto selected = selectedItems();
+    if (selected.isEmpty()) return;
+    session_.select(Selection::piece(selected.front()->data(kId).toString().toStdString()));
+  });
+}
+
+void PiecesList::refill() {
+  const auto pattern = session_.pattern();
+  if (session_.isPatternPreview()) return;  // the pieces are the same, and the row stays in place
+  const QSignalBlocker blocker(this);
+  clear();
+  pieces_ = 0;
+  if (pattern) {
+    for (std::size_t i = 0; i < pattern->cut.pieces.size(); ++i) {
+      const Piece& piece = pattern->cut.pieces[i];
+      const PieceRecord* record = recordOf(*pattern->document.design, piece.id);
+      const bool isMade = pattern->flats[i] != nullptr;
+      QString text = nameOf(piece);
+      if (!piece.include) {
+        text += tr("  · left out");
+      } else if (!isMade) {
+        text += tr("  · cannot lie flat");
+      } else if (record != nullptr && record->count > 1) {
+        text += QStringLiteral("  × %1").arg(record->count);
+      }
+      QPixmap swatch(14, 14);
+      swatch.fill(isMade ? fabricTint(0) : studio::palette().divider);
+      auto* item = new QListWidgetItem(
+          isMade || !piece.include ? QIcon(swatch)
+                                   : icon(QStringLiteral("warn"), studio::palette().attention),
+          text, this);
+      item->setData(kId, QString::fromStdString(piece.id));
+      if (!piece.include) item->setForeground(studio::palette().disabled);
+      if (piece.include) ++pieces_;
+    }
+  }
+  showSelection();
+  Q_EMIT countChanged(pieces_);
+}
+
+void PiecesList::showSelection() {
+  const QSignalBlocker blocker(this);
+  clearSelection();
+  for (int row = 0; row < count(); ++row) {
+    const std::string id = item(row)->data(kId).toString().toStdString();
+    if (session_.selection().isPiece(id)) setCurrentRow(row);
+  }
+}
+
+FindingsList::FindingsList(Session& session, QWidget* parent)
+    : QListWidget(parent), session_(session) {
+  setAccessibleName(tr("Findings"));
+  setWordWrap(true);
+  connect(&session, &Session::patternChanged, this, &FindingsList::refill);
+  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
+    const std::string id = item->data(kId).toString().toStdString();
+    if (id.empty()) return;
+    session_.select(item->data(kIsLine).toBool() ? Selection::line(id) : Selection::piece(id));
+  });
+}
+
+void FindingsList::add(const QString& iconName, const QColor& colour, const QString& text,
+                       const std::vector<Element>& where) {
+  auto* item = new QListWidgetItem(icon(iconName, colour), text, this);
+  for (const Element& element : where) {
+    if (element.kind != Element::Kind::Curve && element.kind != Element::Kind::Piece) continue;
+    item->setData(kId, QString::fromStdString(element.name));
+    item->setData(kIsLine, element.kind == Element::Kind::Curve);
+    break;
+  }
+}
+
+void FindingsList::refill() {
+  if (session_.isPatternPreview()) return;
+  clear();
+  const Palette& colours = studio::palette();
+  const auto& error = session_.patternError();
+  if (error) {
+    add(QStringLiteral("warn"), colours.trouble, QString::fromStdString(error->message),
+        error->where);
+  }
+  int mates = 0;
+  if (const auto pattern = session_.pattern()) {
+    mates = static_cast<int>(pattern->cut.mates.size());
+    for (const auto& failure : pattern->failures) {
+      if (!failure) continue;
+      add(QStringLiteral("warn"), colours.trouble, QString::fromStdString(failure->message),
+          failure->where);
+    }
+    for (const Finding& finding : pattern->findings) {
+      add(QStringLiteral("info"), colours.attention, QString::fromStdString(finding.message),
+          finding.where);
+    }
+  }
+  const int found = count();
+  if (found == 0 && mates > 0) {
+    add(QStringLiteral("ok"), colours.good,
+        tr("No findings. All %n seams match their mates.", nullptr, mates), {});
+  }
+  Q_EMIT countChanged(found);
+}
+
+HistoryList::HistoryList(Session& session, QWidget* parent)
+    : QListWidget(parent), session_(session) {
+  setAccessibleName(tr("History"));
+  setObjectName(QStringLiteral("history"));
+  connect(&session, &Session::historyChanged, this, &HistoryList::refill);
+  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
+    session_.jumpTo(static_cast<std::size_t>(item->data(kId).toULongLong()));
+  });
+}
+
+void HistoryList::refill() {
+  clear();
+  const History& history = session_.history();
+  for (std::size_t i = history.steps().size(); i-- > 0;) {
+    const Step& step = history.steps()[i];
+    auto* item = new QListWidgetItem(icon(step.icon), step.name, this);
+    item->setData(kId, static_cast<qulonglong>(i));
+    item->setToolTip(step.time.toString(QStringLiteral("HH:mm:ss")));
+    if (i > history.at()) item->setForeground(studio::palette().disabled);
+    if (i == history.at()) setCurrentItem(item);
+  }
+}
+
+}  // namespace toile::studio

@@ -1,0 +1,230 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "viewport/body_vertices.h"
+
+#include <Eigen/Geometry>
+#include <QColor>
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "app/palette.h"
+#include "toile/core/parallel.h"
+
+namespace toile::studio {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+using Eigen::Vector3f;
+
+namespace {
+
+constexpr int kRays = 16;
+constexpr double kSky = 350;  // mm from which on a surface does not shade any more
+
+/// Directions spread over the upper half sphere, more of them upwards.
+std::array<Vector3d, kRays> sky() {
+  std::array<Vector3d, kRays> directions;
+  for (int i = 0; i < kRays; ++i) {
+    const double radius = std::sqrt((i + 0.5) / kRays);
+    const double angle = i * std::numbers::pi * (3 - std::sqrt(5.0));
+    directions[static_cast<std::size_t>(i)] = {radius * std::cos(angle), radius * std::sin(angle),
+                                               std::sqrt(1 - radius * radius)};
+  }
+  return directions;
+}
+
+std::array<std::uint8_t, 4> bytesOf(const QColor& colour) {
+  return {static_cast<std::uint8_t>(colour.red()), static_cast<std::uint8_t>(colour.green()),
+          static_cast<std::uint8_t>(colour.blue()), 255};
+}
+
+std::array<float, 3> floats(const Vector3d& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+/// Normal and openness at a place of the model, between its vertices.
+struct Shade {
+  Vector3f normal;
+  float openness;
+};
+Shade shadeAt(const BodyShape& shape, const SurfacePoint& point) {
+  const Mesh& mesh = *shape.model->mesh;
+  const auto of = [&](VertexId v) {
+    return Shade{shape.normals[v.index()], shape.openness[v.index()]};
+  };
+  if (const auto* vertex = std::get_if<VertexId>(&point.at)) return of(*vertex);
+  if (const auto* edge = std::get_if<SurfacePoint::OnEdge>(&point.at)) {
+    const Shade a = of(mesh.tail(edge->edge)), b = of(mesh.head(edge->edge));
+    const auto t = static_cast<float>(edge->t);
+    return {((1 - t) * a.normal + t * b.normal).normalized(),
+            (1 - t) * a.openness + t * b.openness};
+  }
+  const auto& in = std::get<SurfacePoint::InFace>(point.at);
+  Shade sum{Vector3f::Zero(), 0};
+  for (int k = 0; k < 3; ++k) {
+    const Shade corner = of(mesh.vertices(in.face)[static_cast<std::size_t>(k)]);
+    const auto weight = static_cast<float>(in.barycentric[k]);
+    sum.normal += weight * corner.normal;
+    sum.openness += weight * corner.openness;
+  }
+  sum.normal.normalize();
+  return sum;
+}
+
+QColor colourOf(const Pattern& pattern, std::size_t index, BodyColouring colouring) {
+  const Piece& piece = pattern.cut.pieces[index];
+  if (!piece.include || !pattern.flats[index]) return palette().clay;
+  if (colouring == BodyColouring::Piece) return fabricTint(index);
+  const Design& design = *pattern.document.design;
+  const Fabric* fabric = fabricOf(design, recordOf(design, piece.id));
+  const auto number = fabric == nullptr ? 0 : fabric - design.fabrics.data();
+  return fabricTint(static_cast<std::size_t>(number));
+}
+
+}  // namespace
+
+BodyShape makeBodyShape(std::shared_ptr<const ReferenceModel> model) {
+  BodyShape shape;
+  const Mesh& mesh = *model->mesh;
+  std::vector<Vector3d> sums(mesh.vertexCount(), Vector3d::Zero());
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& corners = mesh.vertices(FaceId(f));
+    const Vector3d& a = mesh.position(corners[0]);
+    const Vector3d normal = (mesh.position(corners[1]) - a).cross(mesh.position(corners[2]) - a);
+    for (const VertexId corner : corners) sums[corner.index()] += normal;
+  }
+  shape.normals.reserve(sums.size());
+  for (const Vector3d& sum : sums) shape.normals.push_back(sum.normalized().cast<float>());
+  shape.openness.assign(sums.size(), 1.0F);
+  shape.model = std::move(model);
+  return shape;
+}
+
+std::vector<float> computeOpenness(const BodyShape& shape) {
+  static const std::array<Vector3d, kRays> kSkyDirections = sky();
+  const Mesh& mesh = *shape.model->mesh;
+  const double lift = 0.05 * mesh.meanEdgeLength();
+  std::vector<float> open(mesh.vertexCount());
+  parallelFor(open.size(), [&](std::size_t v) {
+    const Vector3d normal = shape.normals[v].cast<double>();
+    const Vector3d side = normal.unitOrthogonal();
+    const Vector3d other = normal.cross(side);
+    const Vector3d from = mesh.positions()[v] + lift * normal;
+    double seen = 0;
+    for (const Vector3d& d : kSkyDirections) {
+      const Vector3d way = d.x() * side + d.y() * other + d.z() * normal;
+      const auto hit = shape.model->index->firstVisibleHit(from, way);
+      seen += hit ? std::min(1.0, hit->t / kSky) : 1.0;
+    }
+    open[v] = static_cast<float>(seen / kRays);
+  });
+  // So few rays are uneven from vertex to vertex.
+  for (int round = 0; round < 2; ++round) {
+    std::vector<float> sum(open), count(open.size(), 1);
+    for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
+      const auto a = mesh.tail(EdgeId(e)).index(), b = mesh.head(EdgeId(e)).index();
+      sum[a] += open[b];
+      sum[b] += open[a];
+      ++count[a];
+      ++count[b];
+    }
+    for (std::size_t v = 0; v < open.size(); ++v) open[v] = sum[v] / count[v];
+  }
+  return open;
+}
+
+std::vector<double> strainOfFaces(const Piece& piece, const FlatPiece& flat,
+                                  StrainMeasure measure) {
+  std::vector<double> strain(piece.mesh->faceCount());
+  for (std::size_t f = 0; f < strain.size(); ++f) {
+    const FaceDistortion& d = flat.distortion[FaceId(f)];
+    if (measure == StrainMeasure::Area) {
+      strain[f] = 1 / d.areaRatio() - 1;  // > 0: the cloth must stretch
+      continue;
+    }
+    const Triangle& t = piece.mesh->vertices(FaceId(f));
+    const Vector2d u = flat.position[t[1]] - flat.position[t[0]];
+    const Vector2d v = flat.position[t[2]] - flat.position[t[0]];
+    const std::array<double, 3> sides = targetSides(piece, FaceId(f));
+    // The metric of the body in the coordinates of the flat face: lengths of its two edges and
+    // what lies between them.
+    const double uu = sides[0] * sides[0], vv = sides[2] * sides[2];
+    const double uv = 0.5 * (uu + vv - sides[1] * sides[1]);
+    const double det = u.x() * v.y() - u.y() * v.x();
+    if (det == 0) continue;
+    const Vector2d x(v.y() / det, -u.y() / det), y(-v.x() / det, u.x() / det);
+    const auto dot = [&](const Vector2d& p, const Vector2d& q) {
+      return uu * p.x() * q.x() + uv * (p.x() * q.y() + p.y() * q.x()) + vv * p.y() * q.y();
+    };
+    const double xx = std::sqrt(dot(x, x)), yy = std::sqrt(dot(y, y));
+    if (measure == StrainMeasure::Along) strain[f] = yy - 1;
+    if (measure == StrainMeasure::Across) strain[f] = xx - 1;
+    if (measure == StrainMeasure::Shear) {
+      strain[f] = std::abs(std::asin(std::clamp(dot(x, y) / (xx * yy), -1.0, 1.0)));
+    }
+  }
+  return strain;
+}
+
+std::vector<double> strainOfVertices(const Piece& piece, const FlatPiece& flat,
+                                     StrainMeasure measure) {
+  const std::vector<double> faces = strainOfFaces(piece, flat, measure);
+  std::vector<double> sum(piece.mesh->vertexCount(), 0), weight(sum.size(), 0);
+  for (std::size_t f = 0; f < faces.size(); ++f) {
+    const double area = piece.mesh->area(FaceId(f));
+    for (const VertexId v : piece.mesh->vertices(FaceId(f))) {
+      sum[v.index()] += area * faces[f];
+      weight[v.index()] += area;
+    }
+  }
+  for (std::size_t v = 0; v < sum.size(); ++v) {
+    if (weight[v] > 0) sum[v] /= weight[v];
+  }
+  return sum;
+}
+
+std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape, const Pattern* pattern,
+                                         BodyColouring colouring, StrainMeasure measure) {
+  std::vector<BodyVertex> vertices;
+  const auto clay = bytesOf(palette().clay);
+  if (pattern == nullptr || pattern->document.model != shape.model || pattern->cut.pieces.empty()) {
+    const Mesh& mesh = *shape.model->mesh;
+    vertices.reserve(3 * mesh.faceCount());
+    for (const Triangle& corners : mesh.triangles()) {
+      for (const VertexId v : corners) {
+        vertices.push_back({floats(mesh.position(v)),
+                            floats(shape.normals[v.index()].cast<double>()),
+                            shape.openness[v.index()], 0, clay});
+      }
+    }
+    return vertices;
+  }
+  for (std::size_t i = 0; i < pattern->cut.pieces.size(); ++i) {
+    const Piece& piece = pattern->cut.pieces[i];
+    const FlatPiece* flat = pattern->flats[i].get();
+    const bool strained = colouring == BodyColouring::Strain && flat != nullptr;
+    const auto colour = strained || colouring == BodyColouring::Clay
+                            ? clay
+                            : bytesOf(colourOf(*pattern, i, colouring));
+    std::vector<double> strain;
+    if (strained) strain = strainOfVertices(piece, *flat, measure);
+    std::vector<BodyVertex> ofPiece;
+    ofPiece.reserve(piece.mesh->vertexCount());
+    for (std::size_t v = 0; v < piece.mesh->vertexCount(); ++v) {
+      const Shade shade = shadeAt(shape, piece.onModel[VertexId(v)]);
+      BodyVertex vertex{floats(piece.mesh->position(VertexId(v))),
+                        floats(shade.normal.cast<double>()), shade.openness, 0, colour};
+      if (strained) {
+        vertex.strain = static_cast<float>(strain[v]);
+        vertex.colour[3] = 0;  // coloured by its strain
+      }
+      ofPiece.push_back(vertex);
+    }
+    for (const Triangle& corners : piece.mesh->triangles()) {
+      for (const VertexId v : corners) vertices.push_back(ofPiece[v.index()]);
+    }
+  }
+  return vertices;
+}
+
+}  // namespace toile::studio

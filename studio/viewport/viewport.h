@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <QElapsedTimer>
+#include <QOpenGLExtraFunctions>
+#include <QOpenGLFramebufferObject>
+#include <QOpenGLWidget>
+#include <QTimer>
+#include <QVariantAnimation>
+#include <memory>
+
+#include "app/session.h"
+#include "viewport/body_layer.h"
+#include "viewport/camera.h"
+#include "viewport/line_layer.h"
+#include "viewport/navigation.h"
+
+namespace toile::studio {
+
+/// The body with its lines, and the hands on it: turns mouse and pen into events for the tool.
+class Viewport final : public QOpenGLWidget, protected QOpenGLExtraFunctions {
+  Q_OBJECT
+ public:
+  explicit Viewport(Session& session, QWidget* parent = nullptr);
+  ~Viewport() override;
+
+  [[nodiscard]] const Camera& camera() const { return camera_; }
+  /// Goes there in a short motion; at once when motion is off.
+  void lookFrom(const Camera& camera);
+  void lookFrom(StandardView side);
+  void fitAll();
+  void fitSelection();
+  void lookStraightAtSelection();
+
+  void setNavigation(NavigationPreset preset) { navigation_ = preset; }
+  void setColouring(BodyColouring colouring, StrainMeasure measure, double scale, double limit);
+  [[nodiscard]] BodyColouring colouring() const { return colouring_; }
+  void setEdges(bool edges);
+  void setSeeThrough(bool seeThrough);
+  [[nodiscard]] bool seeThrough() const { return seeThrough_; }
+  void setMotion(bool motion) { motion_ = motion; }
+  void themeChanged();
+
+  /// "front, from the right"
+  [[nodiscard]] QString viewName() const;
+
+ Q_SIGNALS:
+  void cameraChanged();
+  void contextMenuWanted(const QPoint& globalPlace);
+  void painted();  ///< for the trace of latencies
+
+ protected:
+  void initializeGL() override;
+  void resizeGL(int width, int height) override;
+  void paintGL() override;
+  void mousePressEvent(QMouseEvent* event) override;
+  void mouseMoveEvent(QMouseEvent* event) override;
+  void mouseReleaseEvent(QMouseEvent* event) override;
+  void mouseDoubleClickEvent(QMouseEvent* event) override;
+  void tabletEvent(QTabletEvent* event) override;
+  void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
+  void keyReleaseEvent(QKeyEvent* event) override;
+  void leaveEvent(QEvent* event) override;
+  bool focusNextPrevChild(bool next) override;
+
+ private:
+  [[nodiscard]] Screen screen() const;
+  [[nodiscard]] PointerEvent pointer(const QPointF& place, Qt::KeyboardModifiers modifiers) const;
+  void setCamera(const Camera& camera);
+  void pressed(Qt::MouseButton button, const PointerEvent& event, Qt::KeyboardModifiers modifiers);
+  void moved(const PointerEvent& event);
+  void released(const PointerEvent& event, const QPoint& globalPlace);
+  void bodyChanged();
+  void updateVertices();
+  void updateCursor();
+  void interacted();
+  void fitBox(const std::vector<Eigen::Vector3d>& points);
+  [[nodiscard]] std::vector<Eigen::Vector3d> selectedPoints() const;
+  [[nodiscard]] std::vector<DrawnLine> drawnLines(const Overlay& overlay) const;
+  void drawScene(const Overlay& overlay);
+  void paintOverlay(const Overlay& overlay);
+
+  Session& session_;
+  Camera camera_;
+  NavigationPreset navigation_ = NavigationPreset::Toile;
+  bool motion_ = true;
+  QVariantAnimation flight_;
+  Camera flightFrom_, flightTo_;
+
+  BodyLayer body_;
+  LineLayer lines_;
+  std::shared_ptr<BodyShape> shape_;
+  std::uint64_t shapeNumber_ = 0;
+  bool verticesAreOld_ = true;
+  BodyColouring colouring_ = BodyColouring::Fabric;
+  StrainMeasure measure_ = StrainMeasure::Area;
+  BodyLook look_;
+  bool seeThrough_ = false;
+  std::unique_ptr<QOpenGLFramebufferObject> fine_;
+  bool coarse_ = false;  ///< while something moves: without smooth edges of the body
+  QTimer rest_;          ///< until it is drawn finely again
+
+  ViewGesture gesture_ = ViewGesture::None;
+  Qt::MouseButton button_ = Qt::NoButton;
+  bool toolHasPress_ = false;
+  bool space_ = false;
+  Eigen::Vector2d pressedAt_{0, 0}, lastAt_{0, 0};
+  double travelled_ = 0;
+  std::optional<PointerEvent> lastPointer_;
+  QElapsedTimer clock_;
+};
+
+}  // namespace toile::studio
