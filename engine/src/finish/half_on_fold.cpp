@@ -92,12 +92,12 @@ std::vector<OutlineRun> runsOf(const PatternPiece& pattern, const HalfLoop& half
     double drawn = 0;
     const Outline& loop = pattern.sewLines.front();
     for (std::size_t k = 0; k < whole.edgeCount; ++k)
-      drawn += (loop[(whole.first + k + 1) % count].position -
-                loop[(whole.first + k) % count].position)
-                   .norm();
+      drawn +=
+          (loop[(whole.first + k + 1) % count].position - loop[(whole.first + k) % count].position)
+              .norm();
     for (std::size_t k = 0; k < run.edgeCount; ++k) {
-      length += (half.points[run.first + k + 1].position - half.points[run.first + k].position)
-                    .norm();
+      length +=
+          (half.points[run.first + k + 1].position - half.points[run.first + k].position).norm();
       run.arcEnds.push_back(k + 1);
     }
     const double share = drawn > 0 ? length / drawn : 1;
@@ -150,8 +150,7 @@ bool foldInHalf(PatternPiece& pattern, const Piece& piece, const FlatPiece& flat
   // The wearer's left is at +x; on a piece of the back it lies on the left of the sheet.
   double left = 0;
   for (std::size_t v = 0; v < flat.position.size(); ++v)
-    left += piece.mesh->position(VertexId(v)).x() *
-            (flat.position[VertexId(v)].x() - half.axis);
+    left += piece.mesh->position(VertexId(v)).x() * (flat.position[VertexId(v)].x() - half.axis);
   half.side = left >= 0 ? 1 : -1;
   const std::optional<HalfLoop> sew = halve(pattern.sewLines.front(), half);
   const std::optional<HalfLoop> cut = halve(pattern.cutLines.front(), half);
@@ -162,16 +161,16 @@ bool foldInHalf(PatternPiece& pattern, const Piece& piece, const FlatPiece& flat
   // The piece lies on the left of the way from the end of the half to its begin.
   pattern.fold = {cut->points.back().position, cut->points.front().position};
   constexpr double kNotchFromFoldMm = 1;
-  std::erase_if(pattern.notches, [&](const Notch& notch) {
-    return half.depth(notch.position) < kNotchFromFoldMm;
-  });
+  std::erase_if(pattern.notches,
+                [&](const Notch& notch) { return half.depth(notch.position) < kNotchFromFoldMm; });
   std::erase_if(pattern.drillHoles, [&](const Vector2d& hole) { return half.depth(hole) < 0; });
   pattern.internalLines = halved(pattern.internalLines, half);
   const std::vector<Points2> loops = positions(pattern.sewLines);
   pattern.labelPosition = inmostPoint(loops).position;
   pattern.grain = grainLine(loops, pattern.labelPosition);
-  pattern.label.insert(pattern.label.begin() + std::min<std::ptrdiff_t>(1, std::ssize(pattern.label)),
-                       "Cut on fold");
+  pattern.label.insert(
+      pattern.label.begin() + std::min<std::ptrdiff_t>(1, std::ssize(pattern.label)),
+      "Cut on fold");
   return true;
 }
 

@@ -6,9 +6,10 @@
 #include <algorithm>
 #include <cctype>
 #include <cmath>
+#include <cstdio>
 #include <map>
+#include <memory>
 #include <numbers>
-#include <sstream>
 
 #include "finish/polygon.h"
 #include "io/dxf_groups.h"
@@ -88,7 +89,6 @@ class Reader : public DL_CreationAdapter {
     line_.layer = layer();
     line_.closed = (data.flags & 1) != 0;
     bulge_ = 0;
-    firstBulge_.clear();
   }
   void addVertex(const DL_VertexData& data) override {
     if (!hasLine_) return;
@@ -189,7 +189,6 @@ class Reader : public DL_CreationAdapter {
   bool inBlock_ = false, isLayoutBlock_ = false, hasLine_ = false;
   DxfEntity line_;
   double bulge_ = 0;
-  std::vector<double> firstBulge_;
 };
 
 /// The longer side of the largest piece, in the file's unit.
@@ -269,8 +268,14 @@ Result<DxfDrawing> readDxf(std::string_view text, std::optional<FileUnit> unit) 
   const Result<DxfGroups> groups = checkDxfGroups(text);
   if (!groups) return groups.error();
   Reader reader;
-  std::istringstream stream(groups->text);
-  DL_Dxf().in(stream, &reader);
+  // The parser tells the groups that it has no fields for (39, 50 of a POINT) only when it reads a
+  // C stream.
+  std::string content = groups->text;
+  const std::unique_ptr<std::FILE, int (*)(std::FILE*)> stream(
+      fmemopen(content.data(), content.size(), "r"), &std::fclose);
+  if (!stream) return Error{ErrorCode::FileUnreadable, "no memory is left to read the DXF", {}};
+  DL_Dxf parser;
+  while (parser.readDxfGroups(stream.get(), &reader)) continue;
   reader.endLine();
   DxfDrawing drawing = std::move(reader.drawing);
   chooseUnit(drawing, reader.insUnits, unit);

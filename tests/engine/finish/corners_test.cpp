@@ -30,9 +30,8 @@ SewOutline polygon(const Points2& points, const std::vector<double>& widths) {
 }
 
 bool hasPoint(const Outline& outline, const Vector2d& p) {
-  return std::any_of(outline.begin(), outline.end(), [&](const OutlinePoint& q) {
-    return (q.position - p).norm() < 1e-3;
-  });
+  return std::any_of(outline.begin(), outline.end(),
+                     [&](const OutlinePoint& q) { return (q.position - p).norm() < 1e-3; });
 }
 
 /// A skirt panel: hem of 30 mm below, sides that lean outwards downwards by 10 in 100.
@@ -106,9 +105,8 @@ TEST(Corners, ReachThatIsLimitedEndsSquareAndLeavesTheNeighboursAllowance) {
 
 /// A square with a dart in its upper edge: mouth from (60, 100) to (40, 100), tip at (50, 40).
 SewOutline dartSquare(double width) {
-  SewOutline sew =
-      polygon({{0, 0}, {100, 0}, {100, 100}, {60, 100}, {50, 40}, {40, 100}, {0, 100}},
-              {10, 10, width, 10, 10, width, 10});
+  SewOutline sew = polygon({{0, 0}, {100, 0}, {100, 100}, {60, 100}, {50, 40}, {40, 100}, {0, 100}},
+                           {10, 10, width, 10, 10, width, 10});
   for (const std::size_t leg : {3u, 4u}) {
     sew.runs[leg].kind = WireKind::Dart;
     sew.runs[leg].curve = "dart";

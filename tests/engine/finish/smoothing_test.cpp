@@ -17,7 +17,8 @@ using std::numbers::pi;
 Points2 arcPoints(double radius, double angle, int chords) {
   Points2 points;
   for (int i = 0; i <= chords; ++i)
-    points.emplace_back(radius * std::cos(angle * i / chords), radius * std::sin(angle * i / chords));
+    points.emplace_back(radius * std::cos(angle * i / chords),
+                        radius * std::sin(angle * i / chords));
   return points;
 }
 

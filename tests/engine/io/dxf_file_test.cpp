@@ -20,8 +20,8 @@
 namespace toile {
 namespace {
 
-using testing::HasSubstr;
 using Eigen::Vector2d;
+using testing::HasSubstr;
 
 double lengthOf(const Outline& loop) {
   double length = 0;
@@ -49,9 +49,10 @@ std::string groups(const std::string& lines) {
 }
 
 std::string fileOf(const std::string& block, const std::string& entities = "") {
-  return groups("0 SECTION\n2 BLOCKS\n0 BLOCK\n8 1\n2 P_M\n70 0\n10 0\n20 0\n" + block +
-                "0 ENDBLK\n8 1\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n0 INSERT\n8 1\n2 P_M\n10 0\n20 0\n" +
-                entities + "0 ENDSEC\n0 EOF\n");
+  return groups(
+      "0 SECTION\n2 BLOCKS\n0 BLOCK\n8 1\n2 P_M\n70 0\n10 0\n20 0\n" + block +
+      "0 ENDBLK\n8 1\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n0 INSERT\n8 1\n2 P_M\n10 0\n20 0\n" +
+      entities + "0 ENDSEC\n0 EOF\n");
 }
 
 constexpr const char* kSquare =
@@ -214,8 +215,8 @@ TEST(DxfFile, GuessesTheUnitFromTheSizeAndSaysSo) {
 }
 
 TEST(DxfFile, TellsWhatItLeavesOut) {
-  const DxfDrawing drawing =
-      read(fileOf(std::string(kSquare) + "0 SPLINE\n8 1\n70 0\n72 999999999\n0 HATCH\n8 1\n", kMetric));
+  const DxfDrawing drawing = read(
+      fileOf(std::string(kSquare) + "0 SPLINE\n8 1\n70 0\n72 999999999\n0 HATCH\n8 1\n", kMetric));
   ASSERT_EQ(drawing.findings.size(), 2u);
   EXPECT_THAT(drawing.findings[0].message, HasSubstr("1 HATCH"));
   EXPECT_THAT(drawing.findings[1].message, HasSubstr("1 SPLINE"));
