@@ -14,5 +14,7 @@ void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
 void addStudio(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
+void addConvert(CLI::App& app, Session& session);
+void addCheckSewing(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

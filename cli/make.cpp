@@ -23,7 +23,18 @@ struct Arguments {
   std::filesystem::path folder = "out";
   MakeOptions options;
   bool save = false;
+  WriteOptions write;
+  std::string dialect = "strict";
+  Length overlap;
 };
+
+WriteOptions writeOptions(const Arguments& arguments) {
+  WriteOptions options = arguments.write;
+  options.pdf.overlap = arguments.overlap.mm();
+  if (arguments.dialect == "rich") options.dxf.dialect = DxfDialect::Rich;
+  if (arguments.dialect == "aama") options.dxf.dialect = DxfDialect::Aama;
+  return options;
+}
 
 std::string describe(const Pattern& pattern, const Arguments& arguments) {
   return fmt::format("{} piece{} in {}", pattern.pieces.size(),
@@ -77,7 +88,8 @@ int run(const Arguments& arguments, const Session& session) {
 
   const Result<Pattern> pattern = makePattern(*document, arguments.options, nullptr, &progress);
   if (!pattern) return fail(pattern.error());
-  const Result<WrittenPattern> written = writePattern(*pattern, arguments.folder, &progress);
+  const Result<WrittenPattern> written =
+      writePattern(*pattern, arguments.folder, &progress, writeOptions(arguments));
   if (!written) return fail(written.error());
   if (arguments.save) {
     const Result<void> saved = saveDesign(*pattern, *document, arguments.design);
@@ -111,6 +123,19 @@ void addMake(CLI::App& app, Session& session) {
   command->add_option("-o,--output", arguments->folder, "Folder for the files")
       ->type_name("DIR")
       ->capture_default_str();
+  addParsed(*command, "--paper", arguments->write.pdf.paper, parsePdfPaper,
+            "Paper of pattern.pdf: a4-letter (prints on both), a4, letter, a3, a0, or one sheet")
+      ->type_name("PAPER");
+  addParsed(*command, "--overlap", arguments->overlap, parseLength,
+            "Let the tiles of pattern.pdf overlap by this, to glue them, such as 12mm")
+      ->type_name("LENGTH");
+  command
+      ->add_option("--dxf", arguments->dialect,
+                   "pattern.dxf: strict (nothing but pieces), rich (layer tables and colours for "
+                   "drawing programs) or aama")
+      ->check(CLI::IsMember({"strict", "rich", "aama"}))
+      ->capture_default_str();
+  command->add_flag("--inches", arguments->write.dxf.inches, "Write pattern.dxf in inches");
   command->add_flag("--auto-cut", arguments->options.autoCut,
                     "Cut tubes open along the shortest way, so that they can lie flat");
   addParsed(*command, "--auto-dart", arguments->options.autoDart, parseRatio,

@@ -10,6 +10,9 @@
 
 #include "toile/core/progress.h"
 #include "toile/design/design.h"
+#include "toile/io/dxf.h"
+#include "toile/io/hpgl.h"
+#include "toile/io/pdf.h"
 #include "toile/layout/pattern.h"
 #include "toile/unfold/unfold.h"
 
@@ -82,10 +85,18 @@ struct WrittenPattern {
   std::vector<Finding> findings;  ///< of the pattern and of writing it, such as shortened names
 };
 
-/// Writes pattern.dxf, .svg, .pdf, preview.png, report.html, report.json, pieces/*.obj into the
-/// folder: all of them, or on an error none of this run's, and then the files of an earlier run
-/// stay as they were. Pieces that an earlier run made and this one does not are removed.
+/// How the files are written.
+struct WriteOptions {
+  PdfOptions pdf{};
+  DxfOptions dxf{};
+  HpglOptions hpgl{};
+};
+
+/// Writes pattern.dxf, .svg, .pdf, .plt, laser.dxf, seams.json, lengths.csv, sewing.html,
+/// sewing.pdf, preview.png, report.html, report.json, pieces/*.obj into the folder: all of them, or
+/// on an error none of this run's, and then the files of an earlier run stay as they were. Pieces
+/// that an earlier run made and this one does not are removed.
 Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesystem::path& folder,
-                                    Progress* progress = nullptr);
+                                    Progress* progress = nullptr, const WriteOptions& options = {});
 
 }  // namespace toile

@@ -21,6 +21,20 @@ inline constexpr std::array<std::pair<std::string_view, CurveKind>, 7> kCurveKin
     {"guide", CurveKind::Guide},
 }};
 
+inline constexpr std::array<std::pair<std::string_view, CornerStyle>, 4> kCornerStyleNames{{
+    {"mitre", CornerStyle::Mitre},
+    {"square", CornerStyle::Square},
+    {"mirrored", CornerStyle::Mirrored},
+    {"truncated", CornerStyle::Truncated},
+}};
+inline constexpr std::array<std::pair<std::string_view, NotchKind>, 6> kNotchKindNames{{
+    {"slit", NotchKind::Slit},
+    {"v", NotchKind::V},
+    {"t", NotchKind::T},
+    {"castle", NotchKind::Castle},
+    {"check", NotchKind::Check},
+    {"u", NotchKind::U},
+}};
 inline constexpr std::array<std::pair<std::string_view, SeamKind>, 3> kSeamKindNames{{
     {"butt", SeamKind::Butt},
     {"lapped", SeamKind::Lapped},

@@ -274,6 +274,7 @@ SeamSide readSide(const JsonPlace& at) {
     side.allowance = readLengthFrom(*allowance, Length());
   }
   if (const auto kind = object.find("kind")) side.kind = kind->oneOf(kSeamKindNames);
+  if (const auto corner = object.find("corner")) side.corner = corner->oneOf(kCornerStyleNames);
   side.unknown = object.unknown();
   return side;
 }
@@ -384,6 +385,10 @@ Fabric readFabric(const JsonPlace& at) {
   if (const auto width = object.find("rollWidth")) {
     fabric.rollWidth = readLengthFrom(*width, Length(), false);
   }
+  if (const auto allowance = object.find("allowance")) {
+    fabric.allowance = readLengthFrom(*allowance, Length());
+  }
+  if (const auto nap = object.find("nap")) fabric.nap = nap->boolean();
   if (const auto ease = object.find("ease")) fabric.ease = readEase(*ease);
   fabric.unknown = object.unknown();
   return fabric;
@@ -433,6 +438,20 @@ FinishSettings readFinish(const JsonPlace& at) {
   if (const auto found = object.find("notchSpacing")) {
     finish.notchSpacing = readLengthFrom(*found, Length(), false);
   }
+  const auto allowance = [&](std::string_view key) -> std::optional<Length> {
+    const auto found = object.find(key);
+    if (!found) return std::nullopt;
+    return readLengthFrom(*found, Length());
+  };
+  finish.hemAllowance = allowance("hemAllowance");
+  finish.lappedAllowance = allowance("lappedAllowance");
+  finish.openingAllowance = allowance("openingAllowance");
+  if (const auto found = object.find("corner")) finish.corner = found->oneOf(kCornerStyleNames);
+  if (const auto found = object.find("notchKind")) finish.notchKind = found->oneOf(kNotchKindNames);
+  if (const auto found = object.find("notchWidth")) {
+    finish.notchWidth = readLengthFrom(*found, Length(), false);
+  }
+  if (const auto found = object.find("halfOnFold")) finish.halfOnFold = found->boolean();
   finish.unknown = object.unknown();
   return finish;
 }

@@ -239,6 +239,7 @@ void addSide(Members& out, std::string_view key, const SeamSide& side) {
   if (side.kind != SeamKind::Butt) {
     members.add("kind", quoteJson(nameOf(kSeamKindNames, side.kind)));
   }
+  if (side.corner) members.add("corner", quoteJson(nameOf(kCornerStyleNames, *side.corner)));
   members.addUnknown(side.unknown);
   if (!members.empty()) out.add(key, members.row());
 }
@@ -316,6 +317,8 @@ std::string text(const Fabric& fabric, int indent) {
     out.add("thicknessOffset", quantity(fabric.thicknessOffset));
   }
   if (fabric.rollWidth) out.add("rollWidth", quantity(*fabric.rollWidth));
+  if (fabric.allowance) out.add("allowance", quantity(*fabric.allowance));
+  if (fabric.nap) out.add("nap", "true");
   out.add("ease", text(fabric.ease));
   return out.addUnknown(fabric.unknown).block(indent);
 }
@@ -329,12 +332,25 @@ std::string text(const ModelReference& model) {
 }
 
 std::string text(const FinishSettings& finish) {
-  return Members()
-      .add("allowance", quantity(finish.allowance))
+  const FinishSettings usual;
+  Members out;
+  out.add("allowance", quantity(finish.allowance))
       .add("notchDepth", quantity(finish.notchDepth))
-      .add("notchSpacing", quantity(finish.notchSpacing))
-      .addUnknown(finish.unknown)
-      .block(2);
+      .add("notchSpacing", quantity(finish.notchSpacing));
+  if (finish.hemAllowance) out.add("hemAllowance", quantity(*finish.hemAllowance));
+  if (finish.lappedAllowance) out.add("lappedAllowance", quantity(*finish.lappedAllowance));
+  if (finish.openingAllowance) out.add("openingAllowance", quantity(*finish.openingAllowance));
+  if (finish.corner != usual.corner) {
+    out.add("corner", quoteJson(nameOf(kCornerStyleNames, finish.corner)));
+  }
+  if (finish.notchKind != usual.notchKind) {
+    out.add("notchKind", quoteJson(nameOf(kNotchKindNames, finish.notchKind)));
+  }
+  if (finish.notchWidth != usual.notchWidth) {
+    out.add("notchWidth", quantity(finish.notchWidth));
+  }
+  if (finish.halfOnFold) out.add("halfOnFold", "true");
+  return out.addUnknown(finish.unknown).block(2);
 }
 
 template <class Item>

@@ -5,10 +5,12 @@
 #include <limits>
 
 #include "finish/allowance.h"
+#include "finish/corners.h"
 #include "finish/marking.h"
 #include "finish/notches.h"
 #include "finish/polygon.h"
 #include "finish/seam_net.h"
+#include "finish/smoothing.h"
 #include "toile/core/parallel.h"
 #include "toile/finish/pattern_piece.h"
 
@@ -53,20 +55,74 @@ bool runsAlongCurve(const Piece& piece, const Wire& wire, const Mesh& model,
   return along >= 0;
 }
 
-double allowanceOf(const Wire& wire, const Piece& piece, const Document& document,
-                   const std::vector<PlacedCurve>& curves) {
-  const Design& design = *document.design;
-  const double usual = design.finish.allowance.mm();
-  const StylingCurve* curve = findStylingCurve(design, wire.curve);
-  if (curve == nullptr) return usual;
-  const double left = curve->left.allowance.value_or(design.finish.allowance).mm();
-  const double right = curve->right.allowance.value_or(design.finish.allowance).mm();
-  if (left == right || document.model == nullptr) return left;
+/// The settings of the side of its curve on which the piece lies; null for the model's border.
+const SeamSide* sideOf(const Wire& wire, const Piece& piece, const Document& document,
+                       const std::vector<PlacedCurve>& curves) {
+  const StylingCurve* curve = findStylingCurve(*document.design, wire.curve);
+  if (curve == nullptr) return nullptr;
+  if (curve->left == curve->right || document.model == nullptr) return &curve->left;
   for (const PlacedCurve& placed : curves)
     if (placed.id == wire.curve)
       // Boundary wires have their piece on the left.
-      return runsAlongCurve(piece, wire, *document.model->mesh, placed.path) ? left : right;
-  return usual;
+      return runsAlongCurve(piece, wire, *document.model->mesh, placed.path) ? &curve->left
+                                                                             : &curve->right;
+  return nullptr;
+}
+
+/// What is said for the side by hand comes first, then for its kind, its fabric, and all.
+double allowanceOf(const SeamSide* side, WireKind kind, const Fabric* fabric,
+                   const FinishSettings& finish) {
+  if (side != nullptr && side->allowance) return side->allowance->mm();
+  const bool isHem = side == nullptr ? kind == WireKind::Border : side->kind == SeamKind::Hem;
+  const bool isLapped = side != nullptr && side->kind == SeamKind::Lapped;
+  if (isHem && finish.hemAllowance) return finish.hemAllowance->mm();
+  if (isLapped && finish.lappedAllowance) return finish.lappedAllowance->mm();
+  if (kind == WireKind::Opening && finish.openingAllowance) return finish.openingAllowance->mm();
+  if (fabric != nullptr && fabric->allowance) return fabric->allowance->mm();
+  return finish.allowance.mm();
+}
+
+CornerStyle styleOf(const SeamSide* side, WireKind kind, const FinishSettings& finish) {
+  if (side != nullptr && side->corner) return *side->corner;
+  const bool isHem = side == nullptr ? kind == WireKind::Border && finish.hemAllowance
+                                     : side->kind == SeamKind::Hem;
+  return isHem ? CornerStyle::Mirrored : finish.corner;
+}
+
+/// Folded darts fill with cloth what would be cut out otherwise; wider ones are cut out.
+constexpr double kWidestFoldedDartMm = 120;
+
+/// Marks the runs of darts with an allowance as folded where their mouth is narrow enough.
+void foldDarts(SewOutline& sew) {
+  for (OutlineRun& run : sew.runs) run.folded = run.kind == WireKind::Dart && run.allowance > 0;
+  for (const FoldedDart& dart : foldedDarts(sew)) {
+    if (dart.isInner) continue;
+    const Outline& loop = sew.loops[dart.loop];
+    const OutlineRun& last = sew.runs[dart.firstRun + dart.runCount - 1];
+    const Eigen::Vector2d& from = loop[sew.runs[dart.firstRun].first].position;
+    const Eigen::Vector2d& to = loop[(last.first + last.edgeCount) % loop.size()].position;
+    if ((to - from).norm() <= kWidestFoldedDartMm) continue;
+    for (std::size_t r = 0; r < dart.runCount; ++r) sew.runs[dart.firstRun + r].folded = false;
+  }
+}
+
+/// A little towards the mouth from each tip, so that the stitching hides it.
+std::vector<Eigen::Vector2d> drillHoles(const SewOutline& sew) {
+  constexpr double kFromTipMm = 12;
+  std::vector<Eigen::Vector2d> holes;
+  for (const FoldedDart& dart : foldedDarts(sew)) {
+    const Outline& loop = sew.loops[dart.loop];
+    for (const std::size_t tip : dart.tips) {
+      const Eigen::Vector2d& at = loop[tip].position;
+      const Eigen::Vector2d before = loop[(tip + loop.size() - 1) % loop.size()].position - at;
+      const Eigen::Vector2d after = loop[(tip + 1) % loop.size()].position - at;
+      const Eigen::Vector2d axis = before.normalized() + after.normalized();
+      const double reach = std::min(kFromTipMm, 0.5 * std::min(before.norm(), after.norm()) +
+                                                    0.25 * (before.norm() + after.norm()));
+      if (axis.norm() > 1e-9) holes.emplace_back(at + reach * axis.normalized());
+    }
+  }
+  return holes;
 }
 
 }  // namespace
@@ -76,18 +132,27 @@ Result<std::vector<PatternPiece>> finish(
     const std::vector<std::shared_ptr<const FlatPiece>>& flats) {
   const Design& design = *document.design;
   std::vector<PieceInWork> work;
+  std::vector<std::vector<CornerStyle>> styles;
   for (std::uint32_t i = 0; i < cut.pieces.size() && i < flats.size(); ++i) {
     if (flats[i] == nullptr) continue;
     const Piece& piece = cut.pieces[i];
     auto sew = makeSewOutline(piece, *flats[i]);
     if (!sew) return sew.error();
-    for (OutlineRun& run : sew->runs)
-      run.allowance = std::max(0.0, allowanceOf(piece.wires[run.wire], piece, document, curves));
+    const Fabric* fabric = fabricOf(design, recordOf(design, piece.id));
+    styles.emplace_back();
+    for (OutlineRun& run : sew->runs) {
+      const SeamSide* side = sideOf(piece.wires[run.wire], piece, document, curves);
+      run.allowance = std::max(0.0, allowanceOf(side, run.kind, fabric, design.finish));
+      styles.back().push_back(styleOf(side, run.kind, design.finish));
+    }
+    foldDarts(*sew);
     work.push_back({i, &piece, flats[i].get(), std::move(*sew)});
   }
 
   const SeamNet net(work, cut);
   const std::vector<SewNotch> notches = chooseNotches(net, design.finish.notchSpacing.mm());
+  smoothSewLines(work, net);
+  const std::vector<std::vector<Corner>> corners = planCorners(net, styles);
   std::vector<PatternPiece> pattern(work.size());
   parallelFor(work.size(), [&](std::size_t at) {
     const auto p = static_cast<std::uint32_t>(at);
@@ -100,18 +165,20 @@ Result<std::vector<PatternPiece>> finish(
     out.of = static_cast<int>(work.size());
     const PieceRecord* record = recordOf(design, piece.id);
     if (record != nullptr) out.count = record->count;
-    if (const Fabric* found = fabricOf(design, record))
+    if (const Fabric* found = fabricOf(design, record)) {
       out.fabric = found->name.empty() ? found->id : found->name;
+      out.oneWay = found->nap;
+    }
     out.sewLines = sew.loops;
     out.runs = sew.runs;
     for (std::uint32_t r = 0; r < out.runs.size(); ++r) {
       out.runs[r].seam = net.seam({p, r});
       if (const auto mate = net.mate({p, r})) out.runs[r].mate = work[mate->piece].piece->id;
     }
-    out.cutLines = makeCutLines(sew);
+    out.cutLines = makeCutLines(sew, corners[p]);
     out.findings = checkCutLines(sew, out.cutLines, piece);
-    out.notches =
-        placeNotches(notches, p, piece, design.finish.notchDepth.mm(), out.cutLines, out.findings);
+    out.notches = placeNotches(notches, p, piece, design.finish, out.cutLines, out.findings);
+    out.drillHoles = drillHoles(sew);
     out.internalLines = internalLines(document, curves, piece, *work[p].flat);
     const std::vector<Points2> sewLoops = positions(out.sewLines);
     out.labelPosition = inmostPoint(sewLoops).position;

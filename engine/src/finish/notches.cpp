@@ -110,6 +110,16 @@ class NotchChooser {
   }
 
   /// `before`, `after`: of the chord for the normal; one of them 0 beside a corner.
+  /// The mouth of a folded dart: the notch stands where its leg, prolonged, meets the cut line.
+  void addAtLeg(RunId owner, RunId leg, double along, double back, int number) {
+    const LoopMeasure& loop = measure(leg);
+    const Eigen::Vector2d mouth = loop.at(along);
+    const Eigen::Vector2d out = mouth - loop.at(along + back);
+    const OutlineRun& run = net_.at(owner);
+    notches_.push_back({owner.piece, mouth, out.normalized(), run.allowance, run.curve, number});
+    used_[owner.piece].emplace_back(run.loop, along);
+  }
+
   void add(const SewPlace& place, int number, double before = kNormalChordMm,
            double after = kNormalChordMm) {
     const OutlineRun& run = net_.at(place.run);
@@ -139,8 +149,13 @@ class NotchChooser {
       if (!fits) continue;
       const int number = list.size() > 1 ? ++lastNumber_ : 0;
       for (const RunId id : list) {
+        const RunId before = net_.previous(id);
         if (!isDartMouth(id)) {
           add({id, start(id)}, number);
+        } else if (net_.at(id).folded) {
+          addAtLeg(before, id, start(id), kNormalChordMm, number);
+        } else if (net_.at(before).folded) {
+          addAtLeg(id, before, start(id), -kNormalChordMm, number);
         } else if (net_.at(id).kind == WireKind::Dart) {
           // The dart begins here: the notch belongs to the run that ends here.
           add({net_.previous(id), start(id)}, number, kNormalChordMm, 0);
@@ -349,8 +364,8 @@ std::vector<SewNotch> chooseNotches(const SeamNet& net, double spacing) {
 }
 
 std::vector<Notch> placeNotches(const std::vector<SewNotch>& chosen, std::uint32_t piece,
-                                const Piece& record, double depth, std::vector<Outline>& cutLines,
-                                std::vector<Finding>& findings) {
+                                const Piece& record, const FinishSettings& finish,
+                                std::vector<Outline>& cutLines, std::vector<Finding>& findings) {
   constexpr double kSnapMm = 0.05;       // nearer to a vertex, that vertex serves
   constexpr double kLeastDepthMm = 2;    // where there is no allowance to cut into
   constexpr double kFarthestFactor = 2;  // of the allowance; farther is another part of the line
@@ -380,7 +395,10 @@ std::vector<Notch> placeNotches(const std::vector<SewNotch>& chosen, std::uint32
     notch.onSewLine = sew.position;
     notch.direction = -sew.outward;
     // Less than half the allowance, so that sewing hides it.
-    notch.depth = std::min(depth, sew.allowance > 0 ? 0.5 * sew.allowance : kLeastDepthMm);
+    notch.depth =
+        std::min(finish.notchDepth.mm(), sew.allowance > 0 ? 0.5 * sew.allowance : kLeastDepthMm);
+    notch.kind = finish.notchKind;
+    if (notch.kind != NotchKind::Slit) notch.width = finish.notchWidth.mm();
     notch.seam = sew.seam;
     notch.number = sew.number;
     if ((notch.position - a).norm() < kSnapMm) {

@@ -30,7 +30,8 @@ struct SewNotch {
 /// vertex there. A notch whose normal misses the cut line is left out with a finding.
 [[nodiscard]] std::vector<Notch> placeNotches(const std::vector<SewNotch>& chosen,
                                               std::uint32_t piece, const Piece& record,
-                                              double depth, std::vector<Outline>& cutLines,
+                                              const FinishSettings& finish,
+                                              std::vector<Outline>& cutLines,
                                               std::vector<Finding>& findings);
 
 }  // namespace toile

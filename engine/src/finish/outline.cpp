@@ -103,11 +103,21 @@ Result<SewOutline> makeSewOutline(const Piece& piece, const FlatPiece& flat) {
     };
     Loop loop = build();
     // Readers of pattern files pick a sharp corner as the start anyway; it is a run's start here.
-    for (std::size_t r = 0; r < loop.runs.size(); ++r) {
-      if (!loop.points[loop.runs[r].first].corner) continue;
-      std::rotate(wires.begin(), wires.begin() + static_cast<std::ptrdiff_t>(r), wires.end());
+    // Not within a dart: its legs shall follow each other.
+    const auto start = [&]() -> std::size_t {
+      std::size_t atTip = 0;
+      for (std::size_t r = 0; r < loop.runs.size(); ++r) {
+        if (!loop.points[loop.runs[r].first].corner) continue;
+        const OutlineRun& before = loop.runs[(r + loop.runs.size() - 1) % loop.runs.size()];
+        const bool isTip = loop.runs[r].kind == WireKind::Dart && before.kind == WireKind::Dart;
+        if (!isTip) return r;
+        if (atTip == 0) atTip = r;
+      }
+      return atTip;
+    }();
+    if (start != 0) {
+      std::rotate(wires.begin(), wires.begin() + static_cast<std::ptrdiff_t>(start), wires.end());
       loop = build();
-      break;
     }
     loop.area = signedArea(positions(loop.points));
     if (!std::isfinite(loop.area)) return outlineError(piece, "a flat position is no number");

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 #include <set>
 
@@ -14,6 +15,7 @@
 #include "io/file_date.h"
 #include "io/sheet_drawing.h"
 #include "toile/core/version.h"
+#include "toile/sew/sewing.h"
 
 namespace toile {
 namespace {
@@ -24,11 +26,18 @@ enum Layer : int {
   kTurnPoint = 2,
   kCurvePoint = 3,
   kNotch = 4,
+  kReference = 5,
+  kMirror = 6,
   kGrain = 7,
   kInternal = 8,
   kCutout = 11,
+  kDrill = 13,
   kSew = 14,
   kAnnotation = 15,
+  kTNotch = 80,
+  kCastleNotch = 81,
+  kCheckNotch = 82,
+  kUNotch = 83,
   kBoundaryCurve = 84,
   kInternalCurve = 85,
   kCutoutCurve = 86,
@@ -42,6 +51,23 @@ constexpr double kLeastTextMm = 1.5;
 constexpr double kLineFeed = 1.5;    // of the height
 constexpr double kLetterWide = 0.8;  // of the height, in the plain fonts of CAD programs
 constexpr double kEdgeTextHeightMm = 3.5;
+
+constexpr Layer layerOf(NotchKind kind) {
+  switch (kind) {
+    case NotchKind::Slit:
+    case NotchKind::V:
+      return kNotch;
+    case NotchKind::T:
+      return kTNotch;
+    case NotchKind::Castle:
+      return kCastleNotch;
+    case NotchKind::Check:
+      return kCheckNotch;
+    case NotchKind::U:
+      return kUNotch;
+  }
+  return kNotch;
+}
 
 /// A vertex of a written line.
 struct LinePoint {
@@ -69,12 +95,18 @@ std::vector<DxfPoint> coordinates(const std::vector<LinePoint>& points) {
 
 class Writer {
  public:
-  explicit Writer(const Pattern& pattern) : pattern_(pattern), design_(*pattern.document.design) {}
+  Writer(const Pattern& pattern, const DxfOptions& options)
+      : pattern_(pattern),
+        design_(*pattern.document.design),
+        options_(options),
+        out_(options.inches) {}
 
   DxfFile write() {
     chooseNames();
     out_.section("HEADER");
+    if (options_.dialect == DxfDialect::Rich) writeVariables();
     out_.endSection();
+    if (options_.dialect == DxfDialect::Rich) writeTables();
     out_.section("BLOCKS");
     for (std::size_t i = 0; i < pattern_.pieces.size(); ++i) writeBlock(i);
     out_.endSection();
@@ -91,7 +123,73 @@ class Writer {
     return {out_.str(), std::move(findings_)};
   }
 
+  std::vector<std::string> blockNames() {
+    chooseNames();
+    return std::move(blockNames_);
+  }
+
  private:
+  [[nodiscard]] bool isAama() const { return options_.dialect == DxfDialect::Aama; }
+
+  void writeVariables() {
+    const auto variable = [&](std::string_view name, int code, std::string_view value) {
+      out_.group(9, name);
+      out_.group(code, value);
+    };
+    variable("$ACADVER", 1, "AC1009");
+    variable("$INSUNITS", 70, options_.inches ? "1" : "4");
+    variable("$MEASUREMENT", 70, options_.inches ? "0" : "1");
+  }
+
+  /// One line type, a colour per layer, one style of text.
+  void writeTables() {
+    struct LayerColour {
+      int layer, colour;
+    };
+    constexpr LayerColour kLayers[] = {
+        {kBoundary, 7}, {kTurnPoint, 8},  {kCurvePoint, 8}, {kNotch, 1},       {kReference, 8},
+        {kMirror, 6},   {kGrain, 3},      {kInternal, 4},   {kCutout, 7},      {kDrill, 1},
+        {kSew, 5},      {kAnnotation, 3}, {kTNotch, 1},     {kCastleNotch, 1}, {kCheckNotch, 1},
+        {kUNotch, 1},   {84, 9},          {85, 9},          {86, 9},           {87, 9}};
+    const auto table = [&](std::string_view name, int count) {
+      out_.group(0, "TABLE");
+      out_.group(2, name);
+      out_.group(70, count);
+    };
+    out_.section("TABLES");
+    table("LTYPE", 1);
+    out_.group(0, "LTYPE");
+    out_.group(2, "CONTINUOUS");
+    out_.group(70, 0);
+    out_.group(3, "Solid line");
+    out_.group(72, 65);
+    out_.group(73, 0);
+    out_.group(40, "0.0");
+    out_.group(0, "ENDTAB");
+    table("LAYER", static_cast<int>(std::size(kLayers)));
+    for (const LayerColour& each : kLayers) {
+      out_.group(0, "LAYER");
+      out_.group(2, each.layer);
+      out_.group(70, 0);
+      out_.group(62, each.colour);
+      out_.group(6, "CONTINUOUS");
+    }
+    out_.group(0, "ENDTAB");
+    table("STYLE", 1);
+    out_.group(0, "STYLE");
+    out_.group(2, "STANDARD");
+    out_.group(70, 0);
+    out_.group(40, "0.0");
+    out_.group(41, "1.0");
+    out_.group(50, "0.0");
+    out_.group(71, 0);
+    out_.group(42, "2.5");
+    out_.group(3, "txt");
+    out_.group(4, "");
+    out_.group(0, "ENDTAB");
+    out_.endSection();
+  }
+
   /// ASCII, and a finding where letters are lost or changed.
   std::string plainText(const std::string& text, const char* what, std::size_t most = 200) {
     std::string ascii = toAscii(text);
@@ -204,7 +302,7 @@ class Writer {
       const Eigen::Vector2d inward(-along.y(), along.x());
       constexpr double kInsideMm = 3;
       out_.text(kAnnotation, toDxf(placement.apply(0.5 * (a + b) + kInsideMm * inward)),
-                kEdgeTextHeightMm, seamLetters(run.seam),
+                kEdgeTextHeightMm, edgeCodes(pattern_, piece, run),
                 std::atan2(along.y(), along.x()) + placement.angle);
     }
   }
@@ -229,19 +327,41 @@ class Writer {
     if (hasAllowance)
       for (const Outline& line : piece.sewLines) writeClosed(line, placement, kSew, kSewCurve);
     for (const InternalLine& line : piece.internalLines) writeInternal(line, placement);
+    for (const OutlineRun& run : piece.runs)
+      if (run.folded) writeInternal(dartLeg(piece, run), placement);
     for (const auto& [at, corner] : markedPoints_) out_.mark(corner ? kTurnPoint : kCurvePoint, at);
     for (const Notch& notch : piece.notches) {
-      out_.mark(kNotch, toDxf(placement.apply(notch.position)));
-      out_.length(30, notch.depth);  // no width (39): a slit
+      out_.mark(layerOf(notch.kind), toDxf(placement.apply(notch.position)));
+      out_.length(30, notch.depth);
+      if (notch.kind != NotchKind::Slit) out_.length(39, notch.width);  // none: a slit
       const Eigen::Vector2d inward = placement.applyToDirection(notch.direction);
       out_.angle(50, std::atan2(inward.y(), inward.x()));
     }
     out_.line(kGrain, toDxf(placement.apply(piece.grain[0])),
               toDxf(placement.apply(piece.grain[1])));
-    writeAnnotation(i);
-    for (const Curve& curve : curves_) out_.polyline(curve.layer, curve.points, curve.closed);
+    for (const Eigen::Vector2d& hole : piece.drillHoles)
+      out_.mark(kDrill, toDxf(placement.apply(hole)));
+    if (piece.fold)
+      out_.line(kMirror, toDxf(placement.apply((*piece.fold)[0])),
+                toDxf(placement.apply((*piece.fold)[1])));
+    if (!isAama()) {
+      writeAnnotation(i);
+      for (const Curve& curve : curves_) out_.polyline(curve.layer, curve.points, curve.closed);
+    }
     out_.group(0, "ENDBLK");
     out_.group(8, kBoundary);
+  }
+
+  [[nodiscard]] InternalLine dartLeg(const PatternPiece& piece, const OutlineRun& run) const {
+    InternalLine line;
+    line.kind = CurveKind::Dart;
+    line.curve = run.curve;
+    for (const StylingCurve& curve : design_.curves)
+      if (curve.id == run.curve) line.name = curve.name;
+    const Outline& loop = piece.sewLines[run.loop];
+    for (std::size_t k = 0; k <= run.edgeCount; ++k)
+      line.points.push_back(loop[(run.first + k) % loop.size()].position);
+    return line;
   }
 
   void writeStyleText() {
@@ -251,12 +371,20 @@ class Writer {
           fmt::format("Creation Date:{:02}-{:02}-{:04}", date->day, date->month, date->year));
       lines.push_back(fmt::format("Creation Time:{:02}-{:02}", date->hour, date->minute));
     }
-    lines.push_back(fmt::format("Author:Toile;toile;{}", version()));
+    if (isAama()) {
+      lines.emplace_back("Author:Toile");
+      lines.emplace_back("Product:toile");
+      lines.push_back(fmt::format("Version:{}", version()));
+    } else {
+      lines.push_back(fmt::format("Author:Toile;toile;{}", version()));
+    }
     lines.push_back("Sample Size:" + size_);
     lines.emplace_back("Grade Rule Table:");
-    lines.emplace_back("Units:METRIC");
-    lines.emplace_back("Curve Tolerance:0.05");
-    lines.emplace_back("ASTM/D13Proposal 1 Version:D6673-10");
+    lines.emplace_back(options_.inches ? "Units:ENGLISH" : "Units:METRIC");
+    if (!isAama()) {
+      lines.emplace_back(options_.inches ? "Curve Tolerance:0.002" : "Curve Tolerance:0.05");
+      lines.emplace_back("ASTM/D13Proposal 1 Version:D6673-10");
+    }
     constexpr double kBelowMm = 24;
     constexpr double kStyleTextMm = 5;
     constexpr double kStyleFeedMm = 8;
@@ -275,6 +403,7 @@ class Writer {
 
   const Pattern& pattern_;
   const Design& design_;
+  DxfOptions options_;
   DxfText out_;
   std::string style_, size_;
   std::vector<std::string> pieceNames_, blockNames_;
@@ -286,8 +415,12 @@ class Writer {
 
 }  // namespace
 
-DxfFile writeDxf(const Pattern& pattern) {
-  return Writer(pattern).write();
+DxfFile writeDxf(const Pattern& pattern, const DxfOptions& options) {
+  return Writer(pattern, options).write();
+}
+
+std::vector<std::string> dxfBlockNames(const Pattern& pattern) {
+  return Writer(pattern, {}).blockNames();
 }
 
 }  // namespace toile

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <string>
 
 namespace toile {
 namespace {
@@ -28,7 +29,12 @@ void DxfText::group(int code, int value) {
   fmt::format_to(std::back_inserter(text_), "{:3}\r\n{}\r\n", code, value);
 }
 
-void DxfText::number(int code, std::int64_t value) {
+void DxfText::number(int code, std::int64_t value, bool isLength) {
+  if (inches_ && isLength) {
+    const std::string text = fmt::format("{:.5f}", static_cast<double>(value) / 25400);
+    group(code, text == "-0.00000" ? "0.00000" : text);
+    return;
+  }
   const std::int64_t size = value < 0 ? -value : value;
   fmt::format_to(std::back_inserter(text_), "{:3}\r\n{}{}.{:03}\r\n", code, value < 0 ? "-" : "",
                  size / 1000, size % 1000);
@@ -41,7 +47,7 @@ void DxfText::length(int code, double mm) {
 void DxfText::angle(int code, double radians) {
   std::int64_t value = thousandths(radians * 180 / std::numbers::pi) % 360000;
   if (value < 0) value += 360000;
-  number(code, value);
+  number(code, value, false);
 }
 
 void DxfText::point(int firstCode, const DxfPoint& p) {
@@ -83,6 +89,11 @@ void DxfText::line(int layer, const DxfPoint& from, const DxfPoint& to) {
 }
 
 void DxfText::polyline(int layer, const std::vector<DxfPoint>& points, bool closed) {
+  polyline(std::to_string(layer), points, closed, 0);
+}
+
+void DxfText::polyline(std::string_view layer, const std::vector<DxfPoint>& points, bool closed,
+                       int colour) {
   std::vector<DxfPoint> distinct;
   for (const DxfPoint& p : points)
     if (distinct.empty() || distinct.back() != p) distinct.push_back(p);
@@ -90,6 +101,7 @@ void DxfText::polyline(int layer, const std::vector<DxfPoint>& points, bool clos
   if (distinct.size() < 2) return;
   group(0, "POLYLINE");
   group(8, layer);
+  if (colour > 0) group(62, colour);
   group(66, 1);
   group(70, closed ? 1 : 0);
   for (const DxfPoint& p : distinct) {

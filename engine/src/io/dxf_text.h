@@ -22,6 +22,9 @@ struct DxfPoint {
 /// Group codes and values of DXF R12, CRLF, numbers with three decimals and never "-0.000".
 class DxfText {
  public:
+  /// In inches numbers have five decimals.
+  explicit DxfText(bool inches = false) : inches_(inches) {}
+
   void group(int code, std::string_view value);
   void group(int code, int value);
   void length(int code, double mm);
@@ -35,13 +38,17 @@ class DxfText {
   void line(int layer, const DxfPoint& from, const DxfPoint& to);
   /// Consecutive equal points are written once. Nothing is written for fewer than two points.
   void polyline(int layer, const std::vector<DxfPoint>& points, bool closed);
+  /// @param colour of the index of AutoCAD; 0 = that of the layer
+  void polyline(std::string_view layer, const std::vector<DxfPoint>& points, bool closed,
+                int colour);
 
   [[nodiscard]] const std::string& str() const { return text_; }
 
  private:
-  void number(int code, std::int64_t thousandths);
+  void number(int code, std::int64_t thousandths, bool isLength = true);
 
   std::string text_;
+  bool inches_ = false;
 };
 
 }  // namespace toile

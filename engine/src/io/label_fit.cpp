@@ -49,15 +49,18 @@ bool isWithin(const std::vector<std::vector<Vector2d>>& outlines, const Vector2d
   return within;
 }
 
-/// The type size at which the box round `middle` meets the first of the points.
+/// The type size at which the box round `middle` meets the first of the points; a size below
+/// `enough` may be larger than that.
 double freeSize(const std::vector<Vector2d>& points, const Vector2d& middle, const Vector2d& along,
-                const LabelBlock& block) {
+                const LabelBlock& block, double enough) {
   double size = std::numeric_limits<double>::infinity();
+  const double stop = 0.5 * kMargin * enough;
   for (const Vector2d& p : points) {
     const Vector2d d = p - middle;
     const double x = std::abs(d.dot(along)) / block.width;
     const double y = std::abs(d.x() * along.y() - d.y() * along.x()) / block.height;
     size = std::min(size, std::max(x, y));
+    if (size < stop) break;
   }
   return 2 * size / kMargin;
 }
@@ -113,12 +116,16 @@ std::optional<LabelPlace> fitLabel(const LabelRoom& room, std::span<const LabelB
     for (const double angle : angles) {
       const Vector2d along(std::cos(angle), std::sin(angle));
       for (const Vector2d& middle : places) {
-        const double free = freeSize(border, middle, along, blocks[block]);
-        if (free < leastSize) continue;
+        // What can be worth no more than the best is not measured to its end.
+        const double factor = blocks[block].worth * (angle == 0 ? 1 : kTurned);
+        const double useful = std::max(leastSize, bestWorth / factor);
+        if (mostSize < useful) break;
+        const double free = freeSize(border, middle, along, blocks[block], useful);
+        if (free < useful) continue;
         const double clear =
-            std::min({free, mostSize, freeSize(lines, middle, along, blocks[block])});
+            std::min({free, mostSize, freeSize(lines, middle, along, blocks[block], 0)});
         double worth = std::max(clear, kCovering * std::min(free, mostSize));
-        worth *= blocks[block].worth * (angle == 0 ? 1 : kTurned);
+        worth *= factor;
         worth *= 1 - 0.15 * (middle - room.wish).norm() / size.norm();
         if (worth <= bestWorth) continue;
         bestWorth = worth;

@@ -4,7 +4,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <numbers>
+#include <utility>
 
 #include "io/file_date.h"
 #include "io/pdf_canvas.h"
@@ -17,8 +19,42 @@ namespace {
 
 using Eigen::Vector2d;
 
-constexpr double kA4WidthMm = 210;
-constexpr double kA4HeightMm = 297;
+/// A page, and the part of it that home printers reach.
+struct Page {
+  const char* name;
+  double width, height;  ///< mm
+  double tileWidth, tileHeight;
+};
+constexpr double kPrinterMarginMm = 10;
+
+Page pageOf(PdfPaper paper) {
+  const auto whole = [](const char* name, double width, double height) {
+    return Page{name, width, height, width - 2 * kPrinterMarginMm, height - 2 * kPrinterMarginMm};
+  };
+  // The name of the tile stands above its frame, its pieces below.
+  constexpr double kCaptionsMm = 12;
+  Page page{"A4 or Letter", 210, 297, kTileWidthMm, kTileHeightMm};
+  switch (paper) {
+    case PdfPaper::A4OrLetter:
+    case PdfPaper::OneSheet:
+      return page;
+    case PdfPaper::A4:
+      page = whole("A4", 210, 297);
+      break;
+    case PdfPaper::Letter:
+      page = whole("Letter", 215.9, 279.4);
+      break;
+    case PdfPaper::A3:
+      page = whole("A3", 297, 420);
+      break;
+    case PdfPaper::A0:
+      page = whole("A0", 841, 1189);
+      break;
+  }
+  page.tileHeight -= 2 * kCaptionsMm;
+  return page;
+}
+
 constexpr double kMostPageMm = 5080;  ///< 200 inches, the limit of PDF viewers
 constexpr double kInchMm = 25.4;
 constexpr double kBleedMm = 4;  ///< drawn beyond a tile's frame, so that a bad cut leaves no gap
@@ -37,6 +73,8 @@ class Writer {
       : pattern_(pattern),
         design_(*pattern.document.design),
         options_(options),
+        page_(pageOf(options.paper)),
+        corner_(0.5 * (page_.width - page_.tileWidth), 0.5 * (page_.height - page_.tileHeight)),
         sheet_(drawSheet(pattern)) {}
 
   Result<std::string> write() {
@@ -44,7 +82,7 @@ class Writer {
     if (const auto date = fileDate(design_))
       canvas_.setDate(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", date->year, date->month,
                                   date->day, date->hour, date->minute, date->second));
-    if (options_.tiled) {
+    if (options_.paper != PdfPaper::OneSheet) {
       writeTiles();
     } else if (auto whole = writeWholeSheet(); !whole) {
       return whole.error();
@@ -66,7 +104,8 @@ class Writer {
 
   void drawPieces() {
     for (const PieceDrawing& piece : sheet_.pieces) {
-      for (const SheetLine& line : piece.lines) canvas_.line(line.points, line.closed, line.style);
+      for (const SheetLine& line : piece.lines)
+        if (line.style.width > 0) canvas_.line(line.points, line.closed, line.style);
       for (const SheetText& text : piece.texts) canvas_.text(text);
     }
   }
@@ -122,8 +161,8 @@ class Writer {
   /// The sheet in small with the grid of tiles, in a box with its upper left corner at `at`.
   /// @return the height used
   double drawMap(const Vector2d& at, double width, double most, const TilePlan& plan) {
-    const double gridWidth = plan.columns * kTileWidthMm;
-    const double gridHeight = plan.rows * kTileHeightMm;
+    const double gridWidth = plan.columns * plan.step().x() + plan.size.overlap;
+    const double gridHeight = plan.rows * plan.step().y() + plan.size.overlap;
     const double scale = std::min(width / gridWidth, most / gridHeight);
     const Vector2d corner = at - Vector2d(0, scale * gridHeight);
     const auto small = [&](const Vector2d& p) -> Vector2d {
@@ -143,10 +182,11 @@ class Writer {
       for (int c = 0; c < plan.columns; ++c) {
         const Tile* tile = plan.find(r, c);
         if (tile == nullptr) continue;
-        canvas_.line(rectangle(small(tile->box.min), scale * kTileWidthMm, scale * kTileHeightMm),
-                     true, {0.12, {}}, kGrey);
+        canvas_.line(
+            rectangle(small(tile->box.min), scale * plan.step().x(), scale * plan.step().y()), true,
+            {0.12, {}}, kGrey);
         SheetText text;
-        text.size = std::min(4.0, scale * kTileWidthMm / 2.2);
+        text.size = std::min(4.0, scale * plan.step().x() / 2.2);
         text.text = tile->name();
         text.position =
             small(0.5 * (tile->box.min + tile->box.max)) - Vector2d(0, 0.36 * text.size);
@@ -170,38 +210,37 @@ class Writer {
   }
 
   void writeCover(const TilePlan& plan, int pages) {
-    canvas_.beginPage(kA4WidthMm, kA4HeightMm);
-    const double left = 0.5 * (kA4WidthMm - kTileWidthMm);
-    const double bottom = 0.5 * (kA4HeightMm - kTileHeightMm);
-    canvas_.setShift({left, bottom});
-    const double top = kTileHeightMm;
-    canvas_.textFromLeft({0, top - 6}, 7, title(), true, kTileWidthMm);
-    canvas_.textFromLeft({0, top - 14}, 4.2,
-                         "Print at 100 % (\"actual size\"), not \"fit to page\", on A4 or Letter; "
-                         "then measure both squares.",
-                         false, kTileWidthMm);
+    canvas_.beginPage(page_.width, page_.height);
+    canvas_.setShift(corner_);
+    const double top = page_.tileHeight;
+    canvas_.textFromLeft({0, top - 6}, 7, title(), true, page_.tileWidth);
+    canvas_.textFromLeft(
+        {0, top - 14}, 4.2,
+        fmt::format("Print at 100 % (\"actual size\"), not \"fit to page\", on {}; "
+                    "then measure both squares.",
+                    page_.name),
+        false, page_.tileWidth);
     constexpr double kFourInches = 4 * kInchMm;
     const double upper = kFourInches + 6;
     drawSquare({0, 0}, kFourInches, "4 in");
     drawSquare({0, upper}, 100, "100 mm");
     drawLines({5, upper + 90}, 3.6, 5.6,
               {fmt::format("{} pages, {} of them tiles of the pattern.", pages, plan.tiles.size()),
-               "Trim each tile along its frame and butt the tiles",
-               "together so that the diamonds on the edges close.",
-               "There is no overlap; lines run a little beyond the",
-               "frame so that no gap is left.", "Tiles that hold nothing are not printed.", "",
+               joining_[0], joining_[1], joining_[2], joining_[3],
+               "Tiles that hold nothing are not printed.", "",
                "Every piece lies with the outside of the material up,",
                "arrow of the tile upwards as on the body."},
               84);
     drawLegend({5, 88});
-    drawLines(
-        {5, 34}, 3.6, 5.6,
-        {"Letters beside a seam are the same on both pieces", "that are sewn together there."}, 90);
+    drawLines({5, 34}, 3.6, 5.6,
+              {"The code beside a seam says which edges meet: 3C-5C is",
+               "edge C of piece 3, sewn to edge C of piece 5."},
+              90);
     const double column = kFourInches + 6;
-    const double width = kTileWidthMm - column;
+    const double width = page_.tileWidth - column;
     canvas_.textFromLeft({column, top - 25}, 4.2, "Tiles", true);
     const double mapTop = top - 29;
-    const double used = drawMap({column, mapTop}, width, 120, plan);
+    const double used = drawMap({column, mapTop}, width, 0.5 * page_.tileHeight, plan);
     const double listTop = mapTop - used - 9;
     canvas_.textFromLeft({column, listTop}, 4.2, "Pieces", true);
     drawPieceList({column, listTop - 6}, width, 0);
@@ -220,33 +259,45 @@ class Writer {
   }
 
   void writeTile(const TilePlan& plan, const Tile& tile, int pages) {
-    canvas_.beginPage(kA4WidthMm, kA4HeightMm);
-    const Vector2d corner(0.5 * (kA4WidthMm - kTileWidthMm), 0.5 * (kA4HeightMm - kTileHeightMm));
+    canvas_.beginPage(page_.width, page_.height);
+    const Vector2d& corner = corner_;
     canvas_.setShift(corner - tile.box.min);
+    const double bleed = plan.size.overlap > 0 ? 0 : kBleedMm;
     canvas_.beginClip(
-        {tile.box.min - Vector2d(1, 1) * kBleedMm, tile.box.max + Vector2d(1, 1) * kBleedMm});
+        {tile.box.min - Vector2d(1, 1) * bleed, tile.box.max + Vector2d(1, 1) * bleed});
     drawPieces();
-    const Vector2d middle = 0.5 * (tile.box.min + tile.box.max);
+    // With an overlap the next tile's edge lies within this one, on a dashed line.
+    const Vector2d joint = tile.box.max - Vector2d(1, 1) * plan.size.overlap;
+    const Vector2d middle = 0.5 * (tile.box.min + joint);
+    if (plan.size.overlap > 0) {
+      const LineStyle glue{0.2, {4, 2}};
+      if (plan.find(tile.row, tile.column + 1) != nullptr)
+        canvas_.line({{joint.x(), tile.box.min.y()}, {joint.x(), tile.box.max.y()}}, false, glue,
+                     kGrey);
+      if (plan.find(tile.row - 1, tile.column) != nullptr)
+        canvas_.line({{tile.box.min.x(), joint.y()}, {tile.box.max.x(), joint.y()}}, false, glue,
+                     kGrey);
+    }
     const auto mark = [&](const Vector2d& at, const Vector2d& inward, int row, int column) {
       if (plan.find(row, column) == nullptr) return;
       drawDiamond(at, inward, tileName(row, column));
     };
     mark({tile.box.min.x(), middle.y()}, {1, 0}, tile.row, tile.column - 1);
-    mark({tile.box.max.x(), middle.y()}, {-1, 0}, tile.row, tile.column + 1);
-    mark({middle.x(), tile.box.max.y()}, {0, -1}, tile.row - 1, tile.column);
+    mark({joint.x(), middle.y()}, {-1, 0}, tile.row, tile.column + 1);
+    mark({middle.x(), joint.y()}, {0, -1}, tile.row - 1, tile.column);
     mark({middle.x(), tile.box.min.y()}, {0, 1}, tile.row + 1, tile.column);
     canvas_.endClip();
-    canvas_.line(rectangle(tile.box.min, kTileWidthMm, kTileHeightMm), true, kFrame);
+    canvas_.line(rectangle(tile.box.min, page_.tileWidth, page_.tileHeight), true, kFrame);
     // In the margin above the frame: name, arrow up, page, whose pattern it is.
-    canvas_.setShift(corner + Vector2d(0, kTileHeightMm));
+    canvas_.setShift(corner + Vector2d(0, page_.tileHeight));
     canvas_.textFromLeft({0, 6.5}, 6, tile.name(), true);
     canvas_.line({{19, 6}, {19, 13}}, false, kSquare);
     canvas_.line({{17.5, 10.5}, {19, 13}, {20.5, 10.5}}, false, kSquare);
     canvas_.textFromLeft({26, 6.5}, 3.6,
                          fmt::format("page {} of {}   {}", tile.page, pages, title()), false,
-                         kTileWidthMm - 26);
+                         page_.tileWidth - 26);
     canvas_.setShift(corner);
-    canvas_.textFromLeft({0, -9}, 3.6, piecesOn(tile), false, kTileWidthMm);
+    canvas_.textFromLeft({0, -9}, 3.6, piecesOn(tile), false, page_.tileWidth);
   }
 
   /// Names of the pieces that have a part on the tile.
@@ -267,7 +318,13 @@ class Writer {
   }
 
   void writeTiles() {
-    const TilePlan plan = planTiles(sheet_, 2);
+    const TilePlan plan =
+        planTiles(sheet_, 2, {page_.tileWidth, page_.tileHeight, options_.overlap});
+    if (options_.overlap > 0)
+      joining_ = {
+          "Trim each tile at its left and lower edge, glue it",
+          fmt::format("{:.3g} mm over the next one, up to the dashed line,", options_.overlap),
+          "so that the diamonds on the edges close.", ""};
     const int pages = 1 + static_cast<int>(plan.tiles.size());
     writeCover(plan, pages);
     for (const Tile& tile : plan.tiles) writeTile(plan, tile, pages);
@@ -306,13 +363,38 @@ class Writer {
   const Pattern& pattern_;
   const Design& design_;
   PdfOptions options_;
+  Page page_;
+  Vector2d corner_;  ///< of the tile on its page
+  std::array<std::string, 4> joining_{"Trim each tile along its frame and butt the tiles",
+                                      "together so that the diamonds on the edges close.",
+                                      "There is no overlap; lines run a little beyond the",
+                                      "frame so that no gap is left."};
   SheetDrawing sheet_;
   PdfCanvas canvas_;
 };
 
 }  // namespace
 
+Result<PdfPaper> parsePdfPaper(std::string_view text) {
+  constexpr std::array<std::pair<std::string_view, PdfPaper>, 6> kNames{
+      {{"a4-letter", PdfPaper::A4OrLetter},
+       {"a4", PdfPaper::A4},
+       {"letter", PdfPaper::Letter},
+       {"a3", PdfPaper::A3},
+       {"a0", PdfPaper::A0},
+       {"one", PdfPaper::OneSheet}}};
+  for (const auto& [name, paper] : kNames)
+    if (name == text) return paper;
+  return Error{ErrorCode::InvalidArgument,
+               fmt::format("\"{}\" is no paper; give a4-letter, a4, letter, a3, a0 or one", text),
+               {}};
+}
+
 Result<std::string> writePdf(const Pattern& pattern, const PdfOptions& options) {
+  if (!(options.overlap >= 0 && options.overlap <= 30))
+    return Error{ErrorCode::InvalidArgument,
+                 fmt::format("an overlap of {} mm; give 0 to 30 mm", options.overlap),
+                 {}};
   return Writer(pattern, options).write();
 }
 

@@ -215,6 +215,51 @@ double PdfCanvas::textFromLeft(const Eigen::Vector2d& baseline, double size,
   return width;
 }
 
+void PdfCanvas::fill(const std::vector<Points2>& loops, double grey) {
+  cairo_t* cairo = state_->cairo.get();
+  for (const Points2& loop : loops) {
+    if (loop.size() < 3) continue;
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const Eigen::Vector2d p = toPage(loop[i]);
+      if (i == 0) {
+        cairo_move_to(cairo, p.x(), p.y());
+      } else {
+        cairo_line_to(cairo, p.x(), p.y());
+      }
+    }
+    cairo_close_path(cairo);
+  }
+  cairo_set_source_rgb(cairo, grey, grey, grey);
+  cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
+  cairo_fill(cairo);
+}
+
+double PdfCanvas::image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,
+                        double mostHeight) {
+  const auto read = [](void* rest, unsigned char* data, unsigned int size) {
+    auto& bytes = *static_cast<std::string_view*>(rest);
+    if (bytes.size() < size) return CAIRO_STATUS_READ_ERROR;
+    std::copy_n(bytes.begin(), size, data);
+    bytes.remove_prefix(size);
+    return CAIRO_STATUS_SUCCESS;
+  };
+  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> picture(
+      cairo_image_surface_create_from_png_stream(read, &png));
+  if (cairo_surface_status(picture.get()) != CAIRO_STATUS_SUCCESS) return 0;
+  const double columns = cairo_image_surface_get_width(picture.get());
+  const double rows = cairo_image_surface_get_height(picture.get());
+  const double mmPerDot = std::min(width / columns, mostHeight / rows);
+  cairo_t* cairo = state_->cairo.get();
+  const Eigen::Vector2d corner = toPage(upperLeft);
+  cairo_save(cairo);
+  cairo_translate(cairo, corner.x(), corner.y());
+  cairo_scale(cairo, mmPerDot * kPointsPerMm, mmPerDot * kPointsPerMm);
+  cairo_set_source_surface(cairo, picture.get(), 0, 0);
+  cairo_paint(cairo);
+  cairo_restore(cairo);
+  return rows * mmPerDot;
+}
+
 Result<std::string> PdfCanvas::finish() {
   State& s = *state_;
   if (hasPage_) cairo_show_page(s.cairo.get());

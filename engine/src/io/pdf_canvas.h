@@ -4,6 +4,8 @@
 #include <array>
 #include <memory>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "finish/polygon.h"
 #include "io/sheet_drawing.h"
@@ -35,6 +37,13 @@ class PdfCanvas {
   /// Left-aligned; @return the width in mm. A text wider than `most` is set smaller to fit it.
   double textFromLeft(const Eigen::Vector2d& baseline, double size, const std::string& utf8,
                       bool bold = false, double most = 1e9);
+
+  /// Polygons by the even-odd rule, without a rim.
+  void fill(const std::vector<Points2>& loops, double grey);
+  /// A PNG with its upper left corner there, as large as fits.
+  /// @return the height used, mm; 0 where the bytes are no picture
+  double image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,
+               double mostHeight);
 
   /// Ends the document. @return its bytes, or an Error where the library reports one.
   Result<std::string> finish();

@@ -11,18 +11,27 @@ namespace {
 
 constexpr double kAroundMm = 3;  ///< free paper around the pieces
 
+/// A tile without what it shares with the next ones.
+Box2 ownBox(const TilePlan& plan, int row, int column) {
+  Box2 box = plan.box(row, column);
+  box.max = box.min + plan.step();
+  return box;
+}
+
 std::vector<char> usedTiles(const SheetDrawing& sheet, const TilePlan& plan) {
   std::vector<char> used(static_cast<std::size_t>(plan.rows * plan.columns), 0);
   const auto at = [&](int row, int column) -> char& {
     return used[static_cast<std::size_t>(row * plan.columns + column)];
   };
-  const double top = plan.origin.y() + plan.rows * kTileHeightMm;
+  const Eigen::Vector2d step = plan.step();
+  const double top = plan.origin.y() + plan.rows * step.y();
+  // What lies in the overlap alone counts for the tile that has it as its own.
   const auto columnOf = [&](double x) {
-    return std::clamp(static_cast<int>(std::floor((x - plan.origin.x()) / kTileWidthMm)), 0,
+    return std::clamp(static_cast<int>(std::floor((x - plan.origin.x()) / step.x())), 0,
                       plan.columns - 1);
   };
   const auto rowOf = [&](double y) {
-    return std::clamp(static_cast<int>(std::floor((top - y) / kTileHeightMm)), 0, plan.rows - 1);
+    return std::clamp(static_cast<int>(std::floor((top - y) / step.y())), 0, plan.rows - 1);
   };
   for (const PieceDrawing& piece : sheet.pieces) {
     std::vector<Points2> cut;
@@ -34,14 +43,14 @@ std::vector<char> usedTiles(const SheetDrawing& sheet, const TilePlan& plan) {
         const Eigen::Vector2d& b = line.points[(i + 1) % line.points.size()];
         for (int r = rowOf(std::max(a.y(), b.y())); r <= rowOf(std::min(a.y(), b.y())); ++r)
           for (int c = columnOf(std::min(a.x(), b.x())); c <= columnOf(std::max(a.x(), b.x())); ++c)
-            if (at(r, c) == 0 && crosses(plan.box(r, c), a, b)) at(r, c) = 1;
+            if (at(r, c) == 0 && crosses(ownBox(plan, r, c), a, b)) at(r, c) = 1;
       }
     }
     if (cut.empty()) continue;
     const Box2 box = boxOf(cut.front());
     for (int r = rowOf(box.max.y()); r <= rowOf(box.min.y()); ++r)
       for (int c = columnOf(box.min.x()); c <= columnOf(box.max.x()); ++c) {
-        const Box2 tile = plan.box(r, c);
+        const Box2 tile = ownBox(plan, r, c);
         if (at(r, c) == 0 && isInside(cut, 0.5 * (tile.min + tile.max))) at(r, c) = 1;
       }
   }
@@ -63,8 +72,8 @@ std::string Tile::name() const {
 
 Box2 TilePlan::box(int row, int column) const {
   Box2 tile;
-  tile.min = origin + Eigen::Vector2d(column * kTileWidthMm, (rows - 1 - row) * kTileHeightMm);
-  tile.max = tile.min + Eigen::Vector2d(kTileWidthMm, kTileHeightMm);
+  tile.min = origin + Eigen::Vector2d(column * step().x(), (rows - 1 - row) * step().y());
+  tile.max = tile.min + Eigen::Vector2d(size.width, size.height);
   return tile;
 }
 
@@ -74,13 +83,14 @@ const Tile* TilePlan::find(int row, int column) const {
   return nullptr;
 }
 
-TilePlan planTiles(const SheetDrawing& sheet, int firstPage) {
+TilePlan planTiles(const SheetDrawing& sheet, int firstPage, const TileSize& tileSize) {
   const Eigen::Vector2d size = sheet.box.size() + Eigen::Vector2d(2, 2) * kAroundMm;
   TilePlan plan;
-  plan.columns = std::max(1, static_cast<int>(std::ceil(size.x() / kTileWidthMm)));
-  plan.rows = std::max(1, static_cast<int>(std::ceil(size.y() / kTileHeightMm)));
-  const Eigen::Vector2d slack(plan.columns * kTileWidthMm - size.x(),
-                              plan.rows * kTileHeightMm - size.y());
+  plan.size = tileSize;
+  const Eigen::Vector2d step = plan.step();
+  plan.columns = std::max(1, static_cast<int>(std::ceil(size.x() / step.x())));
+  plan.rows = std::max(1, static_cast<int>(std::ceil(size.y() / step.y())));
+  const Eigen::Vector2d slack(plan.columns * step.x() - size.x(), plan.rows * step.y() - size.y());
   // The grid may lie anywhere within the slack: of 6 x 6 places the one that saves most paper.
   constexpr int kPlaces = 6;
   const Eigen::Vector2d low = sheet.box.min - Eigen::Vector2d(1, 1) * kAroundMm;

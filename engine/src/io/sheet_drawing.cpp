@@ -7,7 +7,12 @@
 #include <array>
 #include <cmath>
 #include <numbers>
+#include <optional>
 #include <set>
+#include <span>
+
+#include "io/label_fit.h"
+#include "toile/sew/sewing.h"
 
 namespace toile {
 namespace {
@@ -91,7 +96,9 @@ class PieceArtist {
     drawSewLines();
     drawInternalLines();
     drawNotches();
+    drawDrillHoles();
     drawGrain();
+    drawFold();
     drawLabel();
     drawEdgeNames();
     return std::move(out_);
@@ -125,15 +132,17 @@ class PieceArtist {
 
   void drawSewLines() {
     for (const OutlineRun& run : piece_.runs) {
-      if (run.allowance <= 0) continue;  // it is the cut line
       SheetLine line;
       line.role = SheetRole::Sew;
       line.points = pointsOf(run);
       line.style = kSewStyle;
+      if (run.allowance <= 0) line.style.width = 0;  // it is the cut line, which is drawn
+      line.edge = edgeCodes(pattern_, piece_, run);
       line.curve = run.curve;
       line.kind = toString(run.kind);
       line.seam = run.seam;
       line.mate = run.mate;
+      line.arcEnds = run.arcEnds;
       out_.lines.push_back(std::move(line));
     }
   }
@@ -180,7 +189,7 @@ class PieceArtist {
       line.role = SheetRole::Notch;
       const Vector2d at = placement_.apply(notch.position);
       const Vector2d inward = placement_.applyToDirection(notch.direction);
-      line.points = {at, at + notch.depth * inward};
+      line.points = notchShape(notch, at, inward);
       line.style = kNotchStyle;
       line.curve = notch.seam;
       line.kind = "notch";
@@ -199,6 +208,34 @@ class PieceArtist {
       out_.texts.push_back({SheetRole::Notch, middle - Vector2d(0, 0.36 * kNotchSizeMm), 0,
                             kNotchSizeMm, false, number});
     }
+  }
+
+  /// The notch as it is cut: a line into the allowance, or its outline from edge to edge.
+  static Points2 notchShape(const Notch& notch, const Vector2d& at, const Vector2d& inward) {
+    const Vector2d half = 0.5 * notch.width * Vector2d(inward.y(), -inward.x());
+    const Vector2d tip = at + notch.depth * inward;
+    switch (notch.kind) {
+      case NotchKind::Slit:
+        break;
+      case NotchKind::V:
+        return {at - half, tip, at + half};
+      case NotchKind::T:
+        return {at, tip, tip - half, tip + half};
+      case NotchKind::Castle:
+        return {at - half, tip - half, tip + half, at + half};
+      case NotchKind::Check:
+        return {at, tip, at + 2 * half};
+      case NotchKind::U: {
+        Points2 points;
+        constexpr int kSteps = 12;
+        for (int i = 0; i <= kSteps; ++i) {
+          const double t = pi * i / kSteps;
+          points.emplace_back(at - std::cos(t) * half + std::sin(t) * notch.depth * inward);
+        }
+        return points;
+      }
+    }
+    return {at, tip};
   }
 
   /// Whether its twin of a double notch stands to the same side as the number.
@@ -237,8 +274,66 @@ class PieceArtist {
       out_.lines.push_back(std::move(line));
     };
     add({a, b});
-    add({a + head * along + 0.35 * head * aside, a, a + head * along - 0.35 * head * aside});
+    // With a nap the one arrow says which end is up.
+    if (!piece_.oneWay)
+      add({a + head * along + 0.35 * head * aside, a, a + head * along - 0.35 * head * aside});
     add({b - head * along + 0.35 * head * aside, b, b - head * along - 0.35 * head * aside});
+  }
+
+  void drawDrillHoles() {
+    constexpr double kRadiusMm = 1;
+    constexpr double kArmMm = 2.5;
+    for (const Vector2d& hole : piece_.drillHoles) {
+      const Vector2d at = placement_.apply(hole);
+      SheetLine line;
+      line.role = SheetRole::Drill;
+      line.style = kMarkStyle;
+      line.kind = "drill";
+      line.closed = true;
+      constexpr int kSteps = 16;
+      for (int i = 0; i < kSteps; ++i) {
+        const double t = 2 * pi * i / kSteps;
+        line.points.emplace_back(at + kRadiusMm * Vector2d(std::cos(t), std::sin(t)));
+      }
+      out_.lines.push_back(line);
+      line.closed = false;
+      for (const Vector2d& arm : {Vector2d(kArmMm, 0), Vector2d(0, kArmMm)}) {
+        line.points = {at - arm, at + arm};
+        out_.lines.push_back(line);
+      }
+    }
+  }
+
+  /// A bent arrow from the line to the edge that lies on the fold.
+  void drawFold() {
+    if (!piece_.fold) return;
+    const Vector2d a = placement_.apply((*piece_.fold)[0]);
+    const Vector2d b = placement_.apply((*piece_.fold)[1]);
+    const double length = (b - a).norm();
+    if (length <= 0) return;
+    const Vector2d along = (b - a) / length;
+    const Vector2d inward = Vector2d(-along.y(), along.x());
+    const double inset = std::min(12.0, 0.1 * length);
+    const Vector2d from = a + 0.15 * length * along;
+    const Vector2d to = b - 0.15 * length * along;
+    SheetLine line;
+    line.role = SheetRole::Grain;
+    line.style = kGrainStyle;
+    line.kind = "fold";
+    line.points = {from, from + inset * inward, to + inset * inward, to};
+    out_.lines.push_back(line);
+    const double head = 0.4 * inset;
+    for (const Vector2d& tip : {from, to}) {
+      line.points = {tip + head * inward + 0.4 * head * along, tip,
+                     tip + head * inward - 0.4 * head * along};
+      out_.lines.push_back(line);
+    }
+    const double angle = readableAngle(along);
+    const Vector2d up(-std::sin(angle), std::cos(angle));
+    const Vector2d middle = 0.5 * (from + to) + (inset + 2) * inward;
+    out_.texts.push_back({SheetRole::Text,
+                          up.dot(inward) > 0 ? middle : Vector2d(middle - 0.75 * kLabelSizeMm * up),
+                          angle, kLabelSizeMm, false, "place on fold"});
   }
 
   /// Whether a rectangle lies inside the sew lines, by points along its rim.
@@ -255,72 +350,53 @@ class PieceArtist {
     return true;
   }
 
-  /// Whether an inner line or the grain line runs through a rectangle.
-  [[nodiscard]] bool isCrossed(const Vector2d& centre, const Vector2d& along, double width,
-                               double height) const {
-    const Vector2d up(-along.y(), along.x());
-    const auto local = [&](const Vector2d& p) -> Vector2d {
-      return {(p - centre).dot(along) / width, (p - centre).dot(up) / height};
-    };
-    const Box2 unit{{-0.5, -0.5}, {0.5, 0.5}};
-    for (const SheetLine& line : out_.lines) {
-      if (line.role != SheetRole::Internal && line.role != SheetRole::Grain) continue;
-      for (std::size_t i = 0; i + 1 < line.points.size(); ++i)
-        if (crosses(unit, local(line.points[i]), local(line.points[i + 1]))) return true;
-    }
-    return false;
-  }
-
-  /// As large as fits, clear of inner lines if there is room beside them; upright if it can be read
-  /// so, else along the piece.
+  /// As large as fits, clear of inner lines if there is room beside them. In a narrow piece fewer
+  /// lines say less, in the end only the number; nothing ever stands out of the piece.
   void drawLabel() {
     if (piece_.label.empty()) return;
-    double width = 0;
-    double height = 0;
-    for (std::size_t i = 0; i < piece_.label.size(); ++i) {
-      const double size = i == 0 ? kNameSizeMm : kLabelSizeMm;
-      width = std::max(width, estimatedWidth(piece_.label[i], size));
-      height += kLineFeed * size;
-    }
-    const Vector2d inmost = placement_.apply(piece_.labelPosition);
-    std::vector<Vector2d> centres{inmost};
-    for (const double dy : {0.6, -0.6, 1.0, -1.0, 1.6, -1.6, 2.4, -2.4, 3.4, -3.4})
-      for (const double dx : {0.0, 0.35, -0.35, 0.7, -0.7})
-        centres.push_back(inmost + Vector2d(dx * width, dy * height));
-    constexpr std::array<double, 8> kScales{1, 0.85, 0.7, 0.6, 0.5, 0.42, 0.36, 0.3};
-    constexpr std::array<double, 4> kAngles{0, 0.5 * pi, 0.25 * pi, -0.25 * pi};
-    constexpr double kTurned = 0.6;   // what a turned label is worth against an upright one
-    constexpr double kCrossed = 0.5;  // the same for one that a line runs through
-    constexpr double kRoom = 1.06;
-    double best = 0;
-    double bestScale = kScales.back();
-    double bestAngle = 0;
-    Vector2d bestCentre = inmost;
-    for (const double angle : kAngles) {
-      const Vector2d along(std::cos(angle), std::sin(angle));
-      for (const double scale : kScales) {
-        const double most = scale * (angle == 0 ? 1 : kTurned);
-        for (const Vector2d& centre : centres) {
-          if (most <= best) break;
-          const double w = kRoom * scale * width;
-          const double h = kRoom * scale * height;
-          const double worth = most * (isCrossed(centre, along, w, h) ? kCrossed : 1);
-          if (worth <= best || !holds(centre, along, w, h)) continue;
-          best = worth;
-          bestScale = scale;
-          bestAngle = angle;
-          bestCentre = centre;
-        }
+    const std::string number = std::to_string(piece_.number);
+    const std::string brief = fmt::format("{}  {}, cut {}", number, piece_.label[0], piece_.count);
+    std::vector<std::vector<std::string>> variants{piece_.label, {piece_.label[0]}, {brief}};
+    if (piece_.label.size() > 1) variants[1].push_back(piece_.label[1]);
+    variants.push_back({number});
+    constexpr std::array<double, 4> kWorth{1, 0.8, 0.6, 0.35};
+    std::vector<LabelBlock> blocks;
+    for (std::size_t v = 0; v < variants.size(); ++v) {
+      LabelBlock block{0, 0, kWorth[v]};
+      for (std::size_t i = 0; i < variants[v].size(); ++i) {
+        const double size = i == 0 ? kNameSizeMm / kLabelSizeMm : 1;
+        block.width = std::max(block.width, estimatedWidth(variants[v][i], size));
+        block.height += kLineFeed * size;
       }
+      blocks.push_back(block);
     }
-    const Vector2d down(std::sin(bestAngle), -std::cos(bestAngle));
-    double below = -0.5 * height;
-    for (std::size_t i = 0; i < piece_.label.size(); ++i) {
-      const double size = i == 0 ? kNameSizeMm : kLabelSizeMm;
+    // The search has y down.
+    const auto flipped = [](Points2 points) {
+      for (Vector2d& p : points) p.y() = -p.y();
+      return points;
+    };
+    LabelRoom room;
+    for (const Points2& loop : sew_) room.outlines.push_back(flipped(loop));
+    for (const SheetLine& line : out_.lines)
+      if (line.role == SheetRole::Internal || line.role == SheetRole::Grain)
+        room.lines.push_back(flipped(line.points));
+    room.wish = flipped({placement_.apply(piece_.labelPosition)}).front();
+    constexpr double kLeastReadableMm = 1.8;
+    constexpr double kLeastNumberMm = 1;
+    std::optional<LabelPlace> place = fitLabel(room, blocks, kLabelSizeMm, kLeastReadableMm);
+    std::size_t variant = place ? place->block : variants.size() - 1;
+    if (!place) place = fitLabel(room, std::span(blocks).last(1), kLabelSizeMm, kLeastNumberMm);
+    if (!place) return;
+    const std::vector<std::string>& lines = variants[variant];
+    const double angle = -place->angle;
+    const Vector2d middle(place->middle.x(), -place->middle.y());
+    const Vector2d down(std::sin(angle), -std::cos(angle));
+    double below = -0.5 * blocks[variant].height * place->size;
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+      const double size = place->size * (i == 0 ? kNameSizeMm / kLabelSizeMm : 1);
       below += kLineFeed * size;
-      const Vector2d at = bestCentre + bestScale * (below - 0.3 * size) * down;
       out_.texts.push_back(
-          {SheetRole::Text, at, bestAngle, bestScale * size, i == 0, piece_.label[i]});
+          {SheetRole::Text, middle + (below - 0.3 * size) * down, angle, size, i == 0, lines[i]});
     }
   }
 
@@ -342,24 +418,32 @@ class PieceArtist {
         const Points2 more = pointsOf(runs[next]);
         points.insert(points.end(), more.begin() + 1, more.end());
       }
-      const std::string letter = seamLetters(runs[r].seam);
+      const std::string code = edgeCodes(pattern_, piece_, runs[r]);
       const std::string name = curveName(runs[r].curve);
       const bool isOwn = runs[r].mate == piece_.id;
       const std::string mate =
           runs[r].mate.empty() || isOwn ? "" : " to " + pieceName(runs[r].mate);
       const double length = lengthOf(points);
-      for (const std::string& text : {letter.empty() ? name : letter + "  " + name + mate,
-                                      letter.empty() ? name : letter + "  " + name, letter}) {
-        const double width = estimatedWidth(text, kEdgeSizeMm);
-        if (text.empty() || width > 0.8 * length) continue;
-        placeEdgeName(points, freeMiddle(points, length, width), width, text);
-        break;
-      }
+      std::vector<std::string> texts{name};
+      if (!code.empty()) texts = {code + "  " + name + mate, code + "  " + name, code};
+      // Rather less text clear of notches than more across one.
+      const auto place = [&](bool acrossNotches) {
+        return std::any_of(texts.begin(), texts.end(), [&](const std::string& text) {
+          const double width = estimatedWidth(text, kEdgeSizeMm);
+          if (text.empty() || width > 0.8 * length) return false;
+          const std::optional<double> free = freeMiddle(points, length, width);
+          if (!free && !acrossNotches) return false;
+          return placeEdgeName(points, free.value_or(0.5 * length), width, text);
+        });
+      };
+      if (!place(false)) place(true);
     }
   }
 
-  /// Where along a seam its name meets no notch, near the middle if possible.
-  [[nodiscard]] double freeMiddle(const Points2& points, double length, double width) const {
+  /// Where along a seam its name meets no notch, near the middle if possible; nothing where it
+  /// meets one everywhere.
+  [[nodiscard]] std::optional<double> freeMiddle(const Points2& points, double length,
+                                                 double width) const {
     for (const double part : {0.5, 0.4, 0.6, 0.3, 0.7, 0.22, 0.78}) {
       const double middle = part * length;
       if (middle < 0.55 * width || middle > length - 0.55 * width) continue;
@@ -370,18 +454,19 @@ class PieceArtist {
           });
       if (isFree) return middle;
     }
-    return 0.5 * length;
+    return std::nullopt;
   }
 
   [[nodiscard]] bool sewCorner(const OutlineRun& run) const {
     return piece_.sewLines[run.loop][run.first].corner;
   }
 
-  void placeEdgeName(const Points2& points, double middle, double width, const std::string& text) {
+  /// @return whether the text stays inside the piece; otherwise nothing is drawn
+  bool placeEdgeName(const Points2& points, double middle, double width, const std::string& text) {
     const Vector2d a = pointAt(points, middle - 0.5 * width);
     const Vector2d b = pointAt(points, middle + 0.5 * width);
     const Vector2d along = b - a;
-    if (along.norm() <= 0) return;
+    if (along.norm() <= 0) return false;
     // The piece lies on the left. Clear of the line where it bends inwards beside the text.
     const Vector2d inward = Vector2d(-along.y(), along.x()).normalized();
     double bulge = 0;
@@ -393,8 +478,12 @@ class PieceArtist {
     constexpr double kClearMm = 1.8;
     const double toBaseline =
         bulge + kClearMm + (up.dot(inward) > 0 ? 0.2 * kEdgeSizeMm : 0.75 * kEdgeSizeMm);
-    out_.texts.push_back(
-        {SheetRole::Text, 0.5 * (a + b) + toBaseline * inward, angle, kEdgeSizeMm, false, text});
+    const Vector2d baseline = 0.5 * (a + b) + toBaseline * inward;
+    if (!holds(baseline + 0.3 * kEdgeSizeMm * up, {std::cos(angle), std::sin(angle)}, width,
+               0.8 * kEdgeSizeMm))
+      return false;
+    out_.texts.push_back({SheetRole::Text, baseline, angle, kEdgeSizeMm, false, text});
+    return true;
   }
 
   const Pattern& pattern_;
@@ -418,17 +507,12 @@ const char* layerName(SheetRole role) {
       return "notches";
     case SheetRole::Grain:
       return "grain line";
+    case SheetRole::Drill:
+      return "drill holes";
     case SheetRole::Text:
       return "text";
   }
   return "";
-}
-
-std::string seamLetters(int seam) {
-  std::string letters;
-  for (int n = seam; n > 0; n = (n - 1) / 26)
-    letters.insert(letters.begin(), static_cast<char>('A' + (n - 1) % 26));
-  return letters;
 }
 
 double estimatedWidth(const std::string& utf8, double size) {

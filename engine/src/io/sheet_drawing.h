@@ -10,11 +10,11 @@
 namespace toile {
 
 /// What a line or text of a pattern piece is; SVG has a layer for each.
-enum class SheetRole { Cut, Sew, Internal, Notch, Grain, Text };
+enum class SheetRole { Cut, Sew, Internal, Notch, Drill, Grain, Text };
 [[nodiscard]] const char* layerName(SheetRole role);
 
 struct LineStyle {
-  double width = 0.3;        ///< mm
+  double width = 0.3;        ///< mm; 0 = there, but not drawn
   std::vector<double> dash;  ///< mm: on, off, ...; empty = solid
 };
 
@@ -24,10 +24,12 @@ struct SheetLine {
   Points2 points;
   bool closed = false;
   LineStyle style;
-  std::string curve;  ///< id of the styling curve, if it is one curve's
-  std::string kind;   ///< of the wire or internal line
-  int seam = 0;       ///< number of the seam, 0 = none
-  std::string mate;   ///< id of the piece sewn on
+  std::string curve;                   ///< id of the styling curve, if it is one curve's
+  std::string kind;                    ///< of the wire or internal line
+  int seam = 0;                        ///< number of the seam, 0 = none
+  std::string mate;                    ///< id of the piece sewn on
+  std::string edge;                    ///< codes of a sewn edge and its mate
+  std::vector<std::size_t> arcEnds{};  ///< of a sew line: OutlineRun::arcEnds
 };
 
 /// A line of text on the sheet.
@@ -45,9 +47,6 @@ struct PieceDrawing {
   std::vector<SheetLine> lines;
   std::vector<SheetText> texts;
 };
-
-/// The number of a seam as people read it, so that it is not taken for a notch: A, B, ... Z, AA.
-[[nodiscard]] std::string seamLetters(int seam);
 
 /// All pieces where the layout puts them, as SVG and PDF draw them.
 struct SheetDrawing {

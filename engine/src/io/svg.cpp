@@ -7,7 +7,10 @@
 #include <cmath>
 #include <iterator>
 #include <numbers>
+#include <optional>
+#include <span>
 
+#include "finish/smoothing.h"
 #include "io/markup.h"
 #include "io/sheet_drawing.h"
 #include "io/strain_map.h"
@@ -85,8 +88,9 @@ class Writer {
                    "fill=\"none\" stroke=\"black\" stroke-linejoin=\"round\">\n",
                    escaped(drawing.id), escaped(drawing.name), piece.number, piece.count,
                    escaped(piece.fabric));
-    for (const SheetRole role : {SheetRole::Cut, SheetRole::Sew, SheetRole::Internal,
-                                 SheetRole::Notch, SheetRole::Grain, SheetRole::Text}) {
+    for (const SheetRole role :
+         {SheetRole::Cut, SheetRole::Sew, SheetRole::Internal, SheetRole::Notch, SheetRole::Drill,
+          SheetRole::Grain, SheetRole::Text}) {
       fmt::format_to(out_, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{} {}\">\n",
                      escaped(drawing.name), layerName(role));
       for (const SheetLine& line : drawing.lines)
@@ -99,7 +103,11 @@ class Writer {
   }
 
   void writeLine(const SheetLine& line) {
-    fmt::format_to(out_, "<path stroke-width=\"{}\"", number(line.style.width));
+    if (line.style.width > 0) {
+      fmt::format_to(out_, "<path stroke-width=\"{}\"", number(line.style.width));
+    } else {
+      text_ += "<path stroke=\"none\"";
+    }
     if (!line.style.dash.empty()) {
       text_ += " stroke-dasharray=\"";
       for (std::size_t i = 0; i < line.style.dash.size(); ++i)
@@ -112,16 +120,57 @@ class Writer {
       fmt::format_to(out_, " data-{}=\"{}\"", line.role == SheetRole::Notch ? "notch" : "seam",
                      line.seam);
     if (!line.mate.empty()) fmt::format_to(out_, " data-mate=\"{}\"", escaped(line.mate));
+    if (!line.edge.empty()) fmt::format_to(out_, " data-edge=\"{}\"", escaped(line.edge));
     text_ += " d=\"";
-    for (std::size_t i = 0; i < line.points.size(); ++i) {
-      const Eigen::Vector2d p = toFile(line.points[i]);
-      fmt::format_to(out_, "{}{} {}",
-                     i == 0   ? "M"
-                     : i == 1 ? " L"
-                              : " ",
-                     number(p.x()), number(p.y()));
-    }
+    writeWay(line);
     text_ += line.closed ? " Z\"/>\n" : "\"/>\n";
+  }
+
+  /// Chords, and circular arcs of the same length where several follow one.
+  void writeWay(const SheetLine& line) {
+    Points2 points = line.points;
+    if (line.closed) points.push_back(points.front());
+    const Eigen::Vector2d start = toFile(points.front());
+    fmt::format_to(out_, "M{} {}", number(start.x()), number(start.y()));
+    std::vector<std::size_t> ends = line.arcEnds;
+    if (ends.empty()) ends = arcEnds(points, line.role == SheetRole::Cut);
+    for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+      const auto part = std::span(points).subspan(ends[k], ends[k + 1] - ends[k] + 1);
+      const std::optional<EqualArc> arc =
+          part.size() > 2 ? equalArc(part) : std::optional<EqualArc>();
+      if (!arc || arc->radius == 0) {
+        // The last chord of a closed line is its "Z".
+        const bool closes = line.closed && ends[k + 1] + 1 == points.size();
+        for (const Eigen::Vector2d& p : part.subspan(1, part.size() - (closes ? 2 : 1))) lineTo(p);
+      } else {
+        const Eigen::Vector2d p = toFile(part.back());
+        // Down the page is the file's y: what turns left on the sheet turns left on the screen.
+        fmt::format_to(out_, " A{0} {0} 0 0 {1} {2} {3}", number(arc->radius), arc->toLeft ? 0 : 1,
+                       number(p.x()), number(p.y()));
+      }
+    }
+  }
+
+  void lineTo(const Eigen::Vector2d& p) {
+    const Eigen::Vector2d q = toFile(p);
+    fmt::format_to(out_, " L{} {}", number(q.x()), number(q.y()));
+  }
+
+  /// Where arcs may begin and end on a line that has no mate.
+  static std::vector<std::size_t> arcEnds(const Points2& points, bool isCurved) {
+    constexpr double kCorner = 20 * std::numbers::pi / 180;
+    constexpr std::size_t kMost = 64;
+    std::vector<std::size_t> ends{0};
+    while (ends.back() + 1 < points.size()) {
+      const std::size_t from = ends.back();
+      std::size_t to = from + 1;
+      while (isCurved && to + 1 < points.size() && to - from < kMost &&
+             std::abs(turnAngle(points[to - 1], points[to], points[to + 1])) < kCorner &&
+             equalArc(std::span(points).subspan(from, to - from + 2)))
+        ++to;
+      ends.push_back(to);
+    }
+    return ends;
   }
 
   void writeText(const SheetText& text) {

@@ -11,6 +11,7 @@
 #include "toile/io/pdf.h"
 #include "toile/io/render.h"
 #include "toile/io/report.h"
+#include "toile/io/sewing_files.h"
 #include "toile/io/svg.h"
 #include "toile/pipeline.h"
 
@@ -23,21 +24,40 @@ struct Product {
   std::function<Result<std::string>()> make;
 };
 
-std::vector<Product> productsOf(const Pattern& pattern,
+/// The pattern with symmetric pieces as halves on folded cloth where the design wants that.
+Pattern asCut(const Pattern& pattern) {
+  Pattern cutting = pattern;
+  if (!pattern.document.design->finish.halfOnFold) return cutting;
+  for (std::size_t i = 0; i < cutting.pieces.size(); ++i) {
+    const std::uint32_t index = pattern.pieceIndex[i];
+    foldInHalf(cutting.pieces[i], pattern.cut.pieces[index], *pattern.flats[index]);
+  }
+  return cutting;
+}
+
+std::vector<Product> productsOf(const Pattern& pattern, const Pattern& cutting,
                                 const std::vector<std::optional<PieceStrain>>& strains,
-                                Progress* progress) {
+                                const WriteOptions& options, Progress* progress) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
        [&, progress] { return renderPattern(pattern, {}, progress); }},
-      {"pattern.pdf", "the pieces at 1:1, to print", [&] { return writePdf(pattern); }},
+      {"pattern.pdf", "the pieces at 1:1, to print",
+       [&] { return writePdf(cutting, options.pdf); }},
       {"report.html", "every piece, every seam length, findings, for the browser",
        [&] { return Result<std::string>(writeReportHtml(pattern)); }},
       {"report.json", "the same report for programs",
        [&] { return Result<std::string>(writeReportJson(pattern)); }},
       {"pattern.svg", "the pieces as vector drawing",
-       [&] { return Result<std::string>(writeSvg(pattern)); }},
+       [&] { return Result<std::string>(writeSvg(cutting)); }},
       {"strain.svg", "the same drawing over colours of how much the cloth must give",
        [&] { return Result<std::string>(writeStrainSvg(pattern)); }},
+      {"laser.dxf", "plain lines for a laser: cut red, mark blue, engrave green",
+       [&] { return Result<std::string>(writeLaserDxf(pattern)); }},
+      {"pattern.plt", "HPGL for plotters", [&] { return writeHpgl(cutting, options.hpgl); }},
+      {"seams.json", "which edge is sewn to which, for programs",
+       [&] { return Result<std::string>(writeSeamsJson(cutting)); }},
+      {"lengths.csv", "the length contract: every line on the body, the pattern, its mate",
+       [&] { return Result<std::string>(writeLengthsCsv(pattern)); }},
   };
   const std::vector<std::string> names = pieceFileNames(pattern.cut);
   for (std::size_t i = 0; i < names.size(); ++i) {
@@ -58,25 +78,44 @@ std::vector<Product> productsOf(const Pattern& pattern,
 }  // namespace
 
 Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesystem::path& folder,
-                                    Progress* progress) {
+                                    Progress* progress, const WriteOptions& options) {
   if (progress != nullptr) progress->step("draw the picture, write the files");
+  // What is cut may be halves; reports and the sewing sheet tell of whole pieces.
+  const Pattern cutting = asCut(pattern);
   // What the DXF writer has to say belongs into the reports.
-  const DxfFile dxf = writeDxf(pattern);
+  const DxfFile dxf = writeDxf(cutting, options.dxf);
   Pattern told = pattern;
   told.findings.insert(told.findings.end(), dxf.findings.begin(), dxf.findings.end());
 
   const std::vector<std::optional<PieceStrain>> strains = measureStrains(told);
-  const std::vector<Product> products = productsOf(told, strains, progress);
+  const std::vector<Product> products = productsOf(told, cutting, strains, options, progress);
   std::vector<Result<std::string>> contents(products.size(), std::string());
   parallelFor(products.size(), [&](std::size_t i) { contents[i] = products[i].make(); });
   if (isCancelled(progress)) {
     return Error{ErrorCode::Cancelled, "stopped before the end; nothing was written", {}};
   }
 
+  // The sewing sheet shows the picture.
+  const std::string cover = contents.front() ? *contents.front() : std::string();
+  std::string sewingPage;
+  Result<std::string> sewingPrint = std::string();
+  parallelFor(2, [&](std::size_t i) {
+    if (i == 0) {
+      sewingPrint = writeSewingPdf(told, cover);
+    } else {
+      sewingPage = writeSewingHtml(told, cover);
+    }
+  });
+  if (!sewingPrint) return sewingPrint.error().during("sewing.pdf");
+
   WrittenPattern written;
   FileSet files;
   files.add("pattern.dxf", dxf.text);
   written.files.push_back({folder / "pattern.dxf", "cutting file for CAD and cutting machines"});
+  files.add("sewing.html", std::move(sewingPage));
+  written.files.push_back({folder / "sewing.html", "what to sew in which order, for the browser"});
+  files.add("sewing.pdf", *std::move(sewingPrint));
+  written.files.push_back({folder / "sewing.pdf", "the same to print"});
   for (std::size_t i = 0; i < products.size(); ++i) {
     if (!contents[i]) return contents[i].error().during(products[i].name);
     files.add(products[i].name, std::move(*contents[i]));

@@ -30,8 +30,7 @@ class RandomDesign {
     for (std::size_t i = below(3); i > 0; --i) design.fabrics.push_back(fabric(design));
     for (std::size_t i = below(4); i > 0; --i) design.pieces.push_back(piece(design));
     if (chance()) design.order = {text(), text(), text(), "2024-02-29", unknown()};
-    design.finish = {Length::mm(std::abs(number())), Length::mm(std::abs(number())),
-                     Length::mm(1e-300 + std::abs(number())), unknown()};
+    design.finish = finish();
     design.unknown = unknown();
     return design;
   }
@@ -149,10 +148,26 @@ class RandomDesign {
         return ShortestWay{places(design), unknown()};
     }
   }
+  FinishSettings finish() {
+    FinishSettings finish;
+    finish.allowance = Length::mm(std::abs(number()));
+    finish.notchDepth = Length::mm(std::abs(number()));
+    finish.notchSpacing = Length::mm(1e-300 + std::abs(number()));
+    if (chance()) finish.hemAllowance = Length::mm(std::abs(number()));
+    if (chance()) finish.lappedAllowance = Length::mm(std::abs(number()));
+    if (chance()) finish.openingAllowance = Length::mm(std::abs(number()));
+    finish.corner = static_cast<CornerStyle>(below(4));
+    finish.notchKind = static_cast<NotchKind>(below(6));
+    if (chance()) finish.notchWidth = Length::mm(1e-300 + std::abs(number()));
+    finish.halfOnFold = chance();
+    finish.unknown = unknown();
+    return finish;
+  }
   SeamSide side() {
     SeamSide side;
     if (chance()) side.allowance = Length::mm(std::abs(number()));
     side.kind = static_cast<SeamKind>(below(3));
+    if (chance()) side.corner = static_cast<CornerStyle>(below(4));
     side.unknown = unknown();
     return side;
   }
@@ -212,6 +227,8 @@ class RandomDesign {
     if (chance()) fabric.shear = Ratio::of(fraction());
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
+    if (chance()) fabric.allowance = Length::mm(std::abs(number()));
+    fabric.nap = chance();
     fabric.thicknessOffset = Ratio::of(fraction());
     fabric.ease = ease();
     fabric.unknown = unknown();

@@ -268,16 +268,29 @@ TEST(Finish, DartsAreNotchedAtTheirMouth) {
   ASSERT_TRUE(pieces) << pieces.error();
   const PatternPiece& darted = pieces->front();
   EXPECT_TRUE(darted.findings.empty());
-  // On the cut line below each end of the mouth, square to the hem, with one number.
+  // The dart is folded: its legs go on to the cut line, where they are notched with one number, and
+  // a drill hole stands 12 mm inside the tip.
   ASSERT_EQ(darted.notches.size(), 2u);
   for (const Notch& notch : darted.notches) {
     EXPECT_EQ(notch.number, 1);
     EXPECT_EQ(notch.seam, "border");
     EXPECT_NEAR(std::abs(notch.onSewLine.x() - 100), 12, 1e-9);
-    EXPECT_NEAR(notch.position.x(), notch.onSewLine.x(), 1e-3);
+    EXPECT_NEAR(std::abs(notch.position.x() - 100), 14, 1e-3);
     EXPECT_NEAR(notch.position.y(), -10, 1e-3);
-    EXPECT_NEAR(notch.direction.y(), 1, 1e-9);
+    const Eigen::Vector2d leg = Eigen::Vector2d(100, 60) - notch.onSewLine;
+    EXPECT_NEAR(notch.direction.dot(leg.normalized()), 1, 1e-9);
   }
+  ASSERT_EQ(darted.drillHoles.size(), 1u);
+  EXPECT_NEAR((darted.drillHoles[0] - Eigen::Vector2d(100, 48)).norm(), 0, 1e-6);
+  EXPECT_TRUE(isInside(positions(darted.cutLines), {100, 5}));
+  // Without allowance it is cut out.
+  Design design;
+  design.finish.allowance = Length::mm(0);
+  document.design = std::make_shared<const Design>(design);
+  const auto open = finish(document, {}, cut, {std::make_shared<const FlatPiece>(flat)});
+  ASSERT_TRUE(open) << open.error();
+  EXPECT_FALSE(isInside(positions(open->front().cutLines), {100, 5}));
+  EXPECT_TRUE(open->front().drillHoles.empty());
 }
 
 TEST(Finish, RefusesAPieceThatLiesWrongSideUp) {

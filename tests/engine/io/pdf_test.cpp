@@ -187,7 +187,7 @@ TEST(Pdf, UpdateLeavesOtherFilesAlone) {
 
 TEST(Pdf, WholeSheetIsOnePage) {
   const Pattern pattern = test::makeTwoPiecePattern();
-  const SavedPdf pdf(pattern, {.tiled = false});
+  const SavedPdf pdf(pattern, {.paper = PdfPaper::OneSheet});
   const Raster page(pdf, 1);
   const SheetDrawing sheet = drawSheet(pattern);
   const Points2& cut = sheet.pieces[0].lines[0].points;
@@ -198,7 +198,7 @@ TEST(Pdf, WholeSheetIsOnePage) {
 TEST(Pdf, RefusesAPageBeyondWhatViewersHold) {
   Pattern pattern = test::makeTwoPiecePattern();
   pattern.layout.placements[1].offset.x() += 6000;
-  const Result<std::string> pdf = writePdf(pattern, {.tiled = false});
+  const Result<std::string> pdf = writePdf(pattern, {.paper = PdfPaper::OneSheet});
   ASSERT_FALSE(pdf);
   EXPECT_EQ(pdf.error().code, ErrorCode::Unsupported);
 }

@@ -62,7 +62,7 @@ TEST(Svg, HasALayerForEachRoleAndTheIdsOfSeams) {
   EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"panel\""), 1u);
   EXPECT_EQ(count(svg, "data-curve=\"side\" data-seam=\"1\" data-mate=\"ell\""), 1u);
   EXPECT_EQ(count(svg, "data-notch=\"1\""), 2u);
-  EXPECT_EQ(count(svg, ">A  side to panel</text>"), 1u);
+  EXPECT_EQ(count(svg, ">1A-2A  side to panel</text>"), 1u);
 }
 
 TEST(Svg, KeepsNamesInUtf8AndEscapesThem) {

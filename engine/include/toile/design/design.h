@@ -178,10 +178,22 @@ using CurveWay =
 
 enum class SeamKind { Butt, Lapped, Hem };
 
+/// How the cut line turns at the end of a side.
+enum class CornerStyle {
+  Mitre,     ///< both parallels prolonged until they meet
+  Square,    ///< cut off square to the side, where its neighbour's allowance ends
+  Mirrored,  ///< the neighbour's cut line mirrored in the sew line: lies flush when folded over
+  Truncated  ///< cut across the corner, an allowance away from it
+};
+
+/// How a notch is cut or drawn.
+enum class NotchKind { Slit, V, T, Castle, Check, U };
+
 /// How one side of a curve is finished.
 struct SeamSide {
   std::optional<Length> allowance;  ///< of the options otherwise
   SeamKind kind = SeamKind::Butt;
+  std::optional<CornerStyle> corner;  ///< else: mirrored at a hem, that of the options elsewhere
   UnknownKeys unknown{};
   friend bool operator==(const SeamSide&, const SeamSide&) = default;
 };
@@ -249,6 +261,8 @@ struct Fabric {
   /// Where in the cloth lengths are counted: 0 = the side on the body, 1 = the outer one.
   Ratio thicknessOffset;
   std::optional<Length> rollWidth;
+  std::optional<Length> allowance;  ///< of pieces of it, instead of that of the options
+  bool nap = false;                 ///< has an up and a down: its pieces all lie one way
   Ease ease;
   UnknownKeys unknown;
   friend bool operator==(const Fabric&, const Fabric&) = default;
@@ -274,7 +288,14 @@ struct ModelReference {
 struct FinishSettings {
   Length allowance = Length::mm(10);
   Length notchDepth = Length::mm(4);
-  Length notchSpacing = Length::mm(150);  ///< about one notch per so much of seam
+  Length notchSpacing = Length::mm(150);   ///< about one notch per so much of seam
+  std::optional<Length> hemAllowance;      ///< of sides of kind hem, instead of `allowance`
+  std::optional<Length> lappedAllowance;   ///< of sides of kind lapped
+  std::optional<Length> openingAllowance;  ///< along openings: where a zip goes in
+  CornerStyle corner = CornerStyle::Mitre;
+  NotchKind notchKind = NotchKind::Slit;
+  Length notchWidth = Length::mm(4);  ///< at the edge, of kinds other than a slit
+  bool halfOnFold = false;            ///< symmetric pieces are cut as halves on folded cloth
   UnknownKeys unknown;
   friend bool operator==(const FinishSettings&, const FinishSettings&) = default;
 };

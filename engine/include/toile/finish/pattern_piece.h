@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,9 @@
 #include "toile/unfold/unfold.h"
 
 namespace toile {
+
+/// By how much smoothing may change the length of a run, mm.
+inline constexpr double kSmoothingMm = 0.01;
 
 /// A vertex of an outline.
 struct OutlinePoint {
@@ -25,7 +29,9 @@ struct Notch {
   Eigen::Vector2d onSewLine;  ///< mm
   Eigen::Vector2d direction;  ///< unit, into the piece
   double depth = 4;           ///< mm
-  std::string seam;           ///< curve id of the run it stands on
+  NotchKind kind = NotchKind::Slit;
+  double width = 0;  ///< mm, at the edge; 0 for a slit
+  std::string seam;  ///< curve id of the run it stands on
   /// The same on every piece that is sewn together there; 0 where the neighbours' own seam ends, so
   /// that they have a corner there and no notch.
   int number = 0;
@@ -49,11 +55,17 @@ struct OutlineRun {
   std::size_t first = 0;   ///< index of its first point in that loop
   std::size_t edgeCount = 0;
   double allowance = 0;  ///< mm
-  double length = 0;     ///< mm, flat
+  /// A dart that is folded, not cut out: the cut line passes its mouth with a cap that lies flush
+  /// when the dart is folded.
+  bool folded = false;
+  double length = 0;  ///< mm, flat
   /// Number of the seam, the same on both sides, counted from 1 over the whole pattern: what the
   /// pieces show beside their edges. Runs that feature lines part share it. 0 = not sewn.
   int seam = 0;
   std::string mate;  ///< id of the piece sewn on here; empty = none
+  /// Where circular arcs may replace the chords: points counted from the run's first one, from 0 to
+  /// edgeCount, the same on the mate. Each arc through two of them has the length of its chords.
+  std::vector<std::size_t> arcEnds{};
 };
 
 /// The flat piece with everything that the cutting room needs.
@@ -64,14 +76,20 @@ struct PatternPiece {
   int of = 1;
   int count = 1;  ///< to cut
   std::string fabric;
-  std::vector<Outline> sewLines;  ///< the exact flat boundary, loop 0 is the outer one
+  /// The flat boundary with the points that its lengths do not need left out, loop 0 is the outer
+  /// one; each run is at most kSmoothingMm shorter, and points are left out on both mates alike.
+  std::vector<Outline> sewLines;
   std::vector<Outline> cutLines;  ///< with seam allowance, loop 0 is the outer one
   std::vector<OutlineRun> runs;
   std::vector<Notch> notches;
+  std::vector<Eigen::Vector2d> drillHoles;  ///< mm: where a dart is stitched to
   std::vector<InternalLine> internalLines;
   std::array<Eigen::Vector2d, 2> grain;  ///< from lower to upper end
-  Eigen::Vector2d labelPosition;         ///< inside the piece
-  std::vector<std::string> label;        ///< lines of text, the first is the name
+  bool oneWay = false;                   ///< the cloth has a nap: the upper end points up
+  /// The edge that lies on folded cloth, where the piece is half of what is cut.
+  std::optional<std::array<Eigen::Vector2d, 2>> fold;
+  Eigen::Vector2d labelPosition;   ///< inside the piece
+  std::vector<std::string> label;  ///< lines of text, the first is the name
   std::vector<Finding> findings;
 };
 
@@ -94,5 +112,11 @@ struct PatternPiece {
 Result<std::vector<PatternPiece>> finish(
     const Document& document, const std::vector<PlacedCurve>& curves, const CutResult& cut,
     const std::vector<std::shared_ptr<const FlatPiece>>& flats);
+
+/// Makes a symmetric piece (to 0.05 mm, about a line across its up, without holes) the half that
+/// lies on the wearer's left, with its edge on the fold; the seams of the other half go.
+/// @param piece the piece that it was made of, and how that lies flat
+/// @return whether it was symmetric; otherwise nothing changes
+bool foldInHalf(PatternPiece& pattern, const Piece& piece, const FlatPiece& flat);
 
 }  // namespace toile
