@@ -32,6 +32,12 @@ class RandomDesign {
     if (chance()) design.order = {text(), text(), text(), "2024-02-29", unknown()};
     design.finish = {Length::mm(std::abs(number())), Length::mm(std::abs(number())),
                      Length::mm(1e-300 + std::abs(number())), unknown()};
+    while (chance()) {
+      design.layout.push_back({newId("p"),
+                               {100 * (fraction() - 0.5), 100 * (fraction() - 0.5)},
+                               Angle::degrees(360 * fraction()),
+                               unknown()});
+    }
     design.unknown = unknown();
     return design;
   }
@@ -212,6 +218,7 @@ class RandomDesign {
     if (chance()) fabric.shear = Ratio::of(fraction());
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
+    if (chance()) fabric.turns = chance() ? Turns::OneWay : Turns::Any;
     fabric.thicknessOffset = Ratio::of(fraction());
     fabric.ease = ease();
     fabric.unknown = unknown();

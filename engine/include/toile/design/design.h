@@ -240,6 +240,13 @@ struct PieceRecord {
   friend bool operator==(const PieceRecord&, const PieceRecord&) = default;
 };
 
+/// How pieces may be turned on a cloth when they are nested.
+enum class Turns {
+  OneWay,  ///< grain and nap: all pieces look the same way
+  TwoWay,  ///< grain alone: also upside down
+  Any      ///< neither, as on leather or foam
+};
+
 struct Fabric {
   std::string id;
   std::string name;
@@ -249,6 +256,7 @@ struct Fabric {
   /// Where in the cloth lengths are counted: 0 = the side on the body, 1 = the outer one.
   Ratio thicknessOffset;
   std::optional<Length> rollWidth;
+  Turns turns = Turns::TwoWay;
   Ease ease;
   UnknownKeys unknown;
   friend bool operator==(const Fabric&, const Fabric&) = default;
@@ -279,6 +287,16 @@ struct FinishSettings {
   friend bool operator==(const FinishSettings&, const FinishSettings&) = default;
 };
 
+/// Where a hand put a piece on the sheet: moved and turned from its place on the guiding map, so
+/// that it means the same on another body.
+struct HandPlacement {
+  std::string piece;                               ///< id
+  Eigen::Vector2d move = Eigen::Vector2d::Zero();  ///< mm on the sheet, of the piece's centre
+  Angle turn;                                      ///< counter-clockwise about its centre
+  UnknownKeys unknown{};
+  friend bool operator==(const HandPlacement&, const HandPlacement&) = default;
+};
+
 struct Design {
   std::string name;
   std::vector<ModelReference> models;  ///< the first is the one it was drawn on
@@ -287,7 +305,8 @@ struct Design {
   std::vector<Fabric> fabrics;
   Order order;
   FinishSettings finish;
-  UnknownKeys unknown;  ///< layers, layout, options of later versions
+  std::vector<HandPlacement> layout;  ///< pieces that the layout leaves where a hand put them
+  UnknownKeys unknown;                ///< layers, options of later versions
   friend bool operator==(const Design&, const Design&) = default;
 };
 
