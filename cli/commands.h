@@ -13,5 +13,7 @@ void addBody(CLI::App& app, Session& session);
 void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
+void addMap(CLI::App& app, Session& session);
+void addNest(CLI::App& app, Session& session);
 
 }  // namespace toile::cli
