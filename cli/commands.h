@@ -16,5 +16,7 @@ void addStudio(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
 void addConvert(CLI::App& app, Session& session);
 void addCheckSewing(CLI::App& app, Session& session);
+void addMap(CLI::App& app, Session& session);
+void addNest(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

@@ -151,7 +151,7 @@ Pattern makeTwoPiecePattern(double allowanceMm) {
   const Piece model = makeHandMadePiece(whole, 500, 400);
   pattern.document.design = design;
   pattern.document.model = std::make_shared<ReferenceModel>(
-      ReferenceModel{"plane", "plane", model.mesh, nullptr, {}, {}, {}, {}});
+      ReferenceModel{"plane", "plane", model.mesh, nullptr, {}, {}, {}, nullptr, {}});
   const std::vector<VertexId>& sideWay = model.wires.back().vertices;
   pattern.curves = {drawn("side", CurveKind::Seam, edgePath(*model.mesh, sideWay))};
   for (const HandMadePiece& plan : {ell, panel}) {

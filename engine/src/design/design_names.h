@@ -47,6 +47,12 @@ inline constexpr std::array<std::pair<std::string_view, SubdivisionRule>, 3> kRu
     {"centripetal", SubdivisionRule::Centripetal},
 }};
 
+inline constexpr std::array<std::pair<std::string_view, Turns>, 3> kTurnsNames{{
+    {"one-way", Turns::OneWay},
+    {"two-way", Turns::TwoWay},
+    {"any", Turns::Any},
+}};
+
 template <class Names, class Value>
 [[nodiscard]] constexpr std::string_view nameOf(const Names& names, Value value) {
   for (const auto& [name, candidate] : names) {

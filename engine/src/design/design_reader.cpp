@@ -388,7 +388,7 @@ Fabric readFabric(const JsonPlace& at) {
   if (const auto allowance = object.find("allowance")) {
     fabric.allowance = readLengthFrom(*allowance, Length());
   }
-  if (const auto nap = object.find("nap")) fabric.nap = nap->boolean();
+  if (const auto turns = object.find("turns")) fabric.turns = turns->oneOf(kTurnsNames);
   if (const auto ease = object.find("ease")) fabric.ease = readEase(*ease);
   fabric.unknown = object.unknown();
   return fabric;
@@ -412,6 +412,34 @@ Order readOrder(const JsonPlace& at) {
   }
   order.unknown = object.unknown();
   return order;
+}
+
+HandPlacement readHandPlacement(const JsonPlace& at) {
+  constexpr double kFarthestMm = 1e5;
+  JsonObject object(at);
+  HandPlacement placement;
+  placement.piece = readId(object.need("piece"));
+  if (const auto move = object.find("move")) {
+    placement.move = move->vector<2>();
+    if (!(placement.move.cwiseAbs().maxCoeff() <= kFarthestMm)) {
+      move->fail("a piece can be moved by at most 100 m");
+    }
+  }
+  if (const auto turn = object.find("turn")) placement.turn = turn->parsed(parseAngle);
+  placement.unknown = object.unknown();
+  return placement;
+}
+
+std::vector<HandPlacement> readLayout(const JsonPlace& at) {
+  std::vector<HandPlacement> layout;
+  std::set<std::string> pieces;
+  for (const JsonPlace& item : at.items()) {
+    layout.push_back(readHandPlacement(item));
+    if (!pieces.insert(layout.back().piece).second) {
+      item.fail("the piece \"" + layout.back().piece + "\" is placed twice");
+    }
+  }
+  return layout;
 }
 
 ModelReference readModelReference(const JsonPlace& at) {
@@ -545,6 +573,7 @@ Design readRoot(JsonObject& root) {
   design.fabrics = readRecords(root.find("fabrics"), readFabric);
   if (const auto order = root.find("order")) design.order = readOrder(*order);
   if (const auto finish = root.find("finish")) design.finish = readFinish(*finish);
+  if (const auto layout = root.find("layout")) design.layout = readLayout(*layout);
   design.unknown = root.unknown();
   if (!root.place().fault->error()) checkReferences(design, root);
   return design;

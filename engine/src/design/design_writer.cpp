@@ -318,7 +318,9 @@ std::string text(const Fabric& fabric, int indent) {
   }
   if (fabric.rollWidth) out.add("rollWidth", quantity(*fabric.rollWidth));
   if (fabric.allowance) out.add("allowance", quantity(*fabric.allowance));
-  if (fabric.nap) out.add("nap", "true");
+  if (fabric.turns != Turns::TwoWay) {
+    out.add("turns", quoteJson(nameOf(kTurnsNames, fabric.turns)));
+  }
   out.add("ease", text(fabric.ease));
   return out.addUnknown(fabric.unknown).block(indent);
 }
@@ -353,6 +355,14 @@ std::string text(const FinishSettings& finish) {
   return out.addUnknown(finish.unknown).block(2);
 }
 
+std::string text(const HandPlacement& placement) {
+  Members out;
+  out.add("piece", quoteJson(placement.piece));
+  if (placement.move != Eigen::Vector2d::Zero()) out.add("move", numbers(placement.move));
+  if (placement.turn != Angle()) out.add("turn", quantity(placement.turn));
+  return out.addUnknown(placement.unknown).row();
+}
+
 template <class Item>
 std::string blocks(const std::vector<Item>& list) {
   return block(each(list, [](const Item& item) { return text(item, 4); }), 2);
@@ -375,6 +385,10 @@ std::string writeDesign(const Design& design) {
     out.add("order", order.addUnknown(design.order.unknown).block(2));
   }
   out.add("finish", text(design.finish));
+  if (!design.layout.empty()) {
+    out.add("layout",
+            block(each(design.layout, [](const HandPlacement& p) { return text(p); }), 2));
+  }
   return out.addUnknown(design.unknown).block(0) + "\n";
 }
 

@@ -167,7 +167,7 @@ Result<std::vector<PatternPiece>> finish(
     if (record != nullptr) out.count = record->count;
     if (const Fabric* found = fabricOf(design, record)) {
       out.fabric = found->name.empty() ? found->id : found->name;
-      out.oneWay = found->nap;
+      out.oneWay = found->turns == Turns::OneWay;
     }
     out.sewLines = sew.loops;
     out.runs = sew.runs;

@@ -9,8 +9,6 @@ namespace toile {
 namespace {
 
 constexpr double kStepsPerMm = 1e4;
-constexpr double kSimplifyMm = 0.4;
-constexpr double kArcMm = 0.2;
 
 /// A polygon's part in a slab: between two edges, at the slab's left and right side.
 struct Trapezoid {
@@ -56,16 +54,17 @@ std::vector<Trapezoid> trapezoids(const std::vector<Edge>& edges, double left, d
 
 }  // namespace
 
-Points2 grown(const Points2& polygon, double distance) {
+Points2 grown(const Points2& polygon, double distance, double tolerance) {
+  const double arc = 0.5 * tolerance;
   const std::vector<char> keep(polygon.size(), 0);
   ClipperLib::Path path;
-  for (const std::size_t i : simplifiedIndices(polygon, keep, kSimplifyMm))
+  for (const std::size_t i : simplifiedIndices(polygon, keep, tolerance))
     path.emplace_back(static_cast<ClipperLib::cInt>(std::llround(polygon[i].x() * kStepsPerMm)),
                       static_cast<ClipperLib::cInt>(std::llround(polygon[i].y() * kStepsPerMm)));
-  ClipperLib::ClipperOffset offset(2, kArcMm * kStepsPerMm);
+  ClipperLib::ClipperOffset offset(2, arc * kStepsPerMm);
   offset.AddPath(path, ClipperLib::jtRound, ClipperLib::etClosedPolygon);
   ClipperLib::Paths result;
-  offset.Execute(result, (distance + kSimplifyMm + kArcMm) * kStepsPerMm);
+  offset.Execute(result, (distance + tolerance + arc) * kStepsPerMm);
   Points2 best;
   for (const ClipperLib::Path& loop : result) {
     Points2 points;

@@ -14,8 +14,9 @@ struct ShiftRange {
 };
 
 /// The outline of a polygon grown by `distance` all round, with few vertices: it holds every point
-/// within `distance` of the polygon and none farther than `distance` + 1 mm. Holes are filled.
-[[nodiscard]] Points2 grown(const Points2& polygon, double distance);
+/// within `distance` of the polygon and none farther than `distance` + 2.5 `tolerance`. Holes are
+/// filled.
+[[nodiscard]] Points2 grown(const Points2& polygon, double distance, double tolerance = 0.4);
 
 /// Adds the shifts t for which `moving`, shifted by t along the axis (0 = x, 1 = y), shares inner
 /// points with `fixed`. Exact up to rounding: both are split into trapezoids over common slabs.

@@ -6,7 +6,7 @@
 #include <string>
 #include <string_view>
 
-#include "toile/model/reference_model.h"
+#include "toile/model/guiding_map.h"
 
 namespace toile::detail {
 
@@ -20,5 +20,8 @@ Result<std::map<std::string, SurfacePath>> readCurves(const Mesh& mesh, const Js
                                                       const std::string& file);
 Result<std::map<std::string, SurfacePoint>> readLandmarks(const Mesh& mesh, const Json& json,
                                                           const std::string& file);
+/// The object under "guidingMap" of `json`.
+Result<GuidingMap> readGuidingMap(const ReferenceModel& model, const Json& json,
+                                  const std::string& file);
 
 }  // namespace toile::detail

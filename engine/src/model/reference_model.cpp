@@ -9,6 +9,7 @@
 #include "model/names.h"
 #include "toile/core/file.h"
 #include "toile/mesh/mesh_file.h"
+#include "toile/model/guiding_map.h"
 
 namespace toile {
 namespace {
@@ -62,6 +63,13 @@ class ModelReader {
     model.findings = std::move(read->findings);
     if (Result<void> done = readNames(model); !done) return done.error();
     if (Result<void> done = readSymmetry(model); !done) return done.error();
+    if (const auto map = json_.find("guidingMap"); map != json_.end()) {
+      auto given = readPart(*map, "guidingMap", [&](const Json& part, const std::string& file) {
+        return detail::readGuidingMap(model, part, file);
+      });
+      if (!given) return given.error();
+      model.map = std::make_shared<GuidingMapSlot>(*std::move(given));
+    }
     return model;
   }
 
@@ -239,6 +247,7 @@ ReferenceModel makeReferenceModel(std::string name, Mesh mesh) {
   model.reference = model.name;
   model.mesh = std::make_shared<const Mesh>(std::move(mesh));
   model.index = std::make_shared<const SurfaceIndex>(model.mesh);
+  model.map = std::make_shared<GuidingMapSlot>();
   return model;
 }
 
@@ -270,6 +279,11 @@ Result<ReferenceModel> withMesh(const ReferenceModel& names, std::string name, M
     model.symmetry = names.symmetry->partner.empty()
                          ? names.symmetry
                          : makeSymmetry(*model.mesh, names.symmetry->partner);
+  }
+  if (names.map && names.map->isGiven()) {
+    FaceData<FaceId> same(model.mesh->faceCount());
+    for (std::size_t i = 0; i < same.size(); ++i) same[FaceId(i)] = FaceId(i);
+    model.map = std::make_shared<GuidingMapSlot>(carryGuidingMap(*guidingMap(names), model, same));
   }
   return model;
 }

@@ -309,8 +309,9 @@ Result<void> finishPieces(Pattern& pattern, Progress* progress) {
 
 Result<void> arrangePieces(Pattern& pattern, Progress* progress) {
   tell(progress, "arrange them on the sheet");
-  Result<Layout> layout = arrange(*pattern.document.model, pattern.cut, pattern.flats,
-                                  pattern.pieces, pattern.pieceIndex);
+  Result<Layout> layout =
+      arrange(*pattern.document.model, pattern.cut, pattern.flats, pattern.pieces,
+              pattern.pieceIndex, pattern.document.design->layout);
   if (!layout) return layout.error();
   pattern.layout = std::move(*layout);
   append(pattern.findings, pattern.layout.findings);

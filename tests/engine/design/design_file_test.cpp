@@ -193,6 +193,15 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"0.25}", "NaN}", "line 31", "expected a value"},
         Damage{"\"closed\": true", "\"id\": \"drawn\"", "line 28", "stands here twice"},
         Damage{"}\n}\n", "}\n}\nx", "line 56", "nothing may follow"},
+        // Pieces placed by hand, cloth
+        Damage{"\"finish\": {",
+               "\"layout\": [{\"piece\": \"a\"}, {\"piece\": \"a\"}],\n  \"finish\": {",
+               "/layout/1", "placed twice"},
+        Damage{"\"finish\": {",
+               "\"layout\": [{\"piece\": \"a\", \"move\": [1e6, 0]}],\n  \"finish\": {",
+               "/layout/0/move", "at most 100 m"},
+        Damage{"\"0.8mm\",", "\"0.8mm\", \"turns\": \"sideways\",", "/fabrics/0/turns",
+               "\"sideways\" is not known"},
         // Version
         Damage{"\"toile\": 1,", "", "line 1, the whole", "needs the key \"toile\""},
         Damage{"\"toile\": 1,", "\"toille\": 1,", "the whole", "is \"toille\" meant"},

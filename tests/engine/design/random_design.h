@@ -31,6 +31,12 @@ class RandomDesign {
     for (std::size_t i = below(4); i > 0; --i) design.pieces.push_back(piece(design));
     if (chance()) design.order = {text(), text(), text(), "2024-02-29", unknown()};
     design.finish = finish();
+    while (chance()) {
+      design.layout.push_back({newId("p"),
+                               {100 * (fraction() - 0.5), 100 * (fraction() - 0.5)},
+                               Angle::degrees(360 * fraction()),
+                               unknown()});
+    }
     design.unknown = unknown();
     return design;
   }
@@ -228,7 +234,7 @@ class RandomDesign {
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
     if (chance()) fabric.allowance = Length::mm(std::abs(number()));
-    fabric.nap = chance();
+    if (chance()) fabric.turns = chance() ? Turns::OneWay : Turns::Any;
     fabric.thicknessOffset = Ratio::of(fraction());
     fabric.ease = ease();
     fabric.unknown = unknown();

@@ -15,19 +15,48 @@ namespace {
 
 using Eigen::Vector2d;
 
-/// Pieces to lay out: a rectangle of the plane that faces the front each, 10 mm allowance.
+constexpr int kCells = 20;  ///< of the model's sides, each way
+
+/// Two upright squares of 400 mm, one that faces the front at y = 0 and one that faces the back at
+/// y = 100, both across x = 0. Their triangles are those of the hand-made pieces' lattice.
+Mesh twoSides() {
+  std::vector<Eigen::Vector3d> positions;
+  std::vector<Triangle> triangles;
+  for (const bool back : {false, true}) {
+    const std::size_t first = positions.size();
+    for (int j = 0; j <= kCells; ++j)
+      for (int i = 0; i <= kCells; ++i) {
+        const double x = i * test::kLatticeMm - 200;
+        positions.emplace_back(back ? -x : x, back ? 100 : 0, j * test::kLatticeMm);
+      }
+    const auto at = [&](int i, int j) {
+      return VertexId(first + static_cast<std::size_t>(j * (kCells + 1) + i));
+    };
+    for (int j = 0; j < kCells; ++j)
+      for (int i = 0; i < kCells; ++i) {
+        triangles.push_back({at(i, j), at(i + 1, j), at(i + 1, j + 1)});
+        triangles.push_back({at(i, j), at(i + 1, j + 1), at(i, j + 1)});
+      }
+  }
+  auto mesh = makeMesh(positions, triangles);
+  EXPECT_TRUE(mesh) << mesh.error();
+  return *mesh;
+}
+
+/// Pieces to lay out: parts of the two sides, 10 mm allowance. They may lie on top of each other.
 struct Pieces {
   CutResult cut;
   std::vector<std::shared_ptr<const FlatPiece>> flats;
   std::vector<PatternPiece> pattern;
   std::vector<std::uint32_t> index;
-  ReferenceModel model;
+  std::vector<HandPlacement> byHand;
+  ReferenceModel model = makeReferenceModel("two sides", twoSides());
 
   /// `turn` turns the flat piece; `fromBehind` puts it on the back of the model.
   void add(const std::function<bool(double, double)>& holds, double turn = 0,
            bool fromBehind = false) {
     const test::HandMadePiece plan{
-        "piece" + std::to_string(pattern.size()),
+        "piece" + std::to_string(cut.pieces.size()),
         holds,
         [](double, double) { return std::pair(WireKind::Border, std::string("border")); },
         {},
@@ -37,12 +66,19 @@ struct Pieces {
     Placement rotation;
     rotation.angle = turn;
     for (Vector2d& p : flat.position.values()) p = rotation.apply(p);
-    std::vector<Eigen::Vector3d> positions = piece.mesh->positions();
-    for (Eigen::Vector3d& p : positions) {
-      p.x() -= 200;
-      if (fromBehind) p = {-p.x(), 100, p.z()};
+    const auto cell = [](double mm) { return std::lround(mm / test::kLatticeMm); };
+    const long firstVertex = fromBehind ? (kCells + 1) * (kCells + 1) : 0;
+    for (const Eigen::Vector3d& p : piece.mesh->positions())
+      piece.onModel.values().push_back({VertexId(
+          static_cast<std::size_t>(firstVertex + cell(p.z()) * (kCells + 1) + cell(p.x())))});
+    for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) {
+      const Triangle& t = piece.mesh->vertices(FaceId(f));
+      std::array<VertexId, 3> on{};
+      for (std::size_t k = 0; k < 3; ++k) on[k] = std::get<VertexId>(piece.onModel[t[k]].at);
+      for (const FaceId g : model.mesh->facesAround(on[0]))
+        if (model.mesh->vertices(g) == on) piece.sourceFace.values().push_back(g);
     }
-    piece.mesh = std::make_shared<const Mesh>(piece.mesh->withPositions(positions));
+    EXPECT_EQ(piece.sourceFace.size(), piece.mesh->faceCount());
     cut.pieces.push_back(piece);
     flats.push_back(std::make_shared<const FlatPiece>(flat));
     index.push_back(static_cast<std::uint32_t>(index.size()));
@@ -52,12 +88,11 @@ struct Pieces {
     auto design = std::make_shared<Design>();
     Document document;
     document.design = design;
-    model.mesh = cut.pieces.front().mesh;
-    model.symmetry = Symmetry();
+    document.model = std::make_shared<const ReferenceModel>(model);
     auto finished = finish(document, {}, cut, flats);
     EXPECT_TRUE(finished) << finished.error();
     pattern = *std::move(finished);
-    auto layout = arrange(model, cut, flats, pattern, index);
+    auto layout = arrange(model, cut, flats, pattern, index, byHand);
     EXPECT_TRUE(layout) << layout.error();
     return layout ? *std::move(layout) : Layout();
   }
@@ -123,7 +158,7 @@ TEST(Layout, TurnsPiecesAsTheyLieOnTheBody) {
   Pieces pieces;
   pieces.add([](double u, double v) { return u < 200 && (v < 100 || u < 60); }, 0.7);
   const Layout layout = pieces.arranged();
-  EXPECT_NEAR(layout.placements[0].angle, -0.7, 1e-9);
+  EXPECT_NEAR(layout.placements[0].angle, -0.7, 1e-6);
   EXPECT_GT(signedArea(pieces.cutLine(layout, 0)), 0);
 }
 
@@ -135,7 +170,7 @@ TEST(Layout, PutsThePiecesOfTheBackBesideTheFront) {
   const Layout layout = pieces.arranged();
   expectNoOverlap(pieces, layout);
   EXPECT_GT(boxOf(pieces.cutLine(layout, 0)).min.x(), boxOf(pieces.cutLine(layout, 1)).max.x());
-  EXPECT_NEAR(layout.placements[0].angle, 0, 1e-9);
+  EXPECT_NEAR(layout.placements[0].angle, 0, 1e-6);
 }
 
 TEST(Layout, PartsManyPiecesThatLieOnTopOfEachOther) {
@@ -161,6 +196,61 @@ TEST(Layout, PartsManyPiecesThatLieOnTopOfEachOther) {
   const Layout again = pieces.arranged();
   for (std::size_t i = 0; i < 40; ++i)
     EXPECT_EQ(again.placements[i].offset, layout.placements[i].offset);
+}
+
+// The article's figure 6: what moves takes along what is still free in its group, so that the order
+// on the body stays; the design is symmetric, and so is the sheet.
+TEST(Layout, KeepsASymmetricDesignSymmetric) {
+  Pieces pieces;
+  for (const bool right : {false, true}) {
+    const auto mirrored = [right](double u) { return right ? 400 - u : u; };
+    pieces.add([=](double u, double v) { return mirrored(u) < 140 && v < 160; });
+    pieces.add([=](double u, double v) { return mirrored(u) < 180 && v > 120 && v < 300; });
+    pieces.add([=](double u, double v) {
+      return mirrored(u) > 60 && mirrored(u) < 200 && v > 260 && (v < 340 || mirrored(u) < 120);
+    });
+  }
+  pieces.add([](double u, double v) { return u > 120 && u < 280 && v > 40 && v < 300; });
+  const Layout layout = pieces.arranged();
+  expectNoOverlap(pieces, layout);
+  EXPECT_TRUE(layout.findings.empty());
+  const Box2 middle = boxOf(pieces.cutLine(layout, 6));
+  const double axis = 0.5 * (middle.min.x() + middle.max.x());
+  for (std::size_t i = 0; i < 3; ++i) {
+    const Box2 left = boxOf(pieces.cutLine(layout, i));
+    const Box2 right = boxOf(pieces.cutLine(layout, i + 3));
+    EXPECT_NEAR(axis - left.min.x(), right.max.x() - axis, 1e-6) << i;
+    EXPECT_NEAR(axis - left.max.x(), right.min.x() - axis, 1e-6) << i;
+    EXPECT_NEAR(left.min.y(), right.min.y(), 1e-6) << i;
+  }
+}
+
+TEST(Layout, LeavesPiecesWhereAHandPutThem) {
+  const auto first = [](double u, double v) { return u < 100 && v < 200; };
+  const auto second = [](double u, double v) { return u > 100 && u < 200 && v < 200; };
+  Pieces pieces;
+  pieces.add(first);
+  pieces.add(second);
+  pieces.byHand.push_back({"piece1", {-60, 40}, Angle::degrees(30)});
+  const Layout layout = pieces.arranged();
+  expectNoOverlap(pieces, layout);
+  EXPECT_TRUE(layout.findings.empty());
+  EXPECT_NEAR(layout.placements[1].angle, std::numbers::pi / 6, 1e-6);
+  // Moved by the hand from its place on the map, which is the model's: its middle is at (150, 100)
+  // of the square, so at (-50, 100) of the map.
+  const Box2 onMap = [&] {
+    Points2 points = positions(pieces.pattern[1].cutLines.front());
+    for (Vector2d& p : points) p = layout.onMap[1].apply(p);
+    return boxOf(points);
+  }();
+  EXPECT_NEAR((0.5 * (onMap.min + onMap.max) - Vector2d(-50 - 60, 100 + 40)).norm(), 0, 1e-3);
+
+  // Two hands that put pieces on top of each other are told so.
+  pieces.byHand.push_back({"piece0", {}, Angle()});
+  pieces.byHand[0] = {"piece1", {-90, 0}, Angle()};
+  const Layout crossed = pieces.arranged();
+  ASSERT_EQ(crossed.findings.size(), 1U);
+  EXPECT_EQ(crossed.findings[0].code, "layout-hand-overlap");
 }
 
 TEST(Clearance, ShiftOutOfACup) {

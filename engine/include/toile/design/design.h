@@ -252,6 +252,13 @@ struct PieceRecord {
   friend bool operator==(const PieceRecord&, const PieceRecord&) = default;
 };
 
+/// How pieces may be turned on a cloth when they are nested.
+enum class Turns {
+  OneWay,  ///< grain and nap: all pieces look the same way
+  TwoWay,  ///< grain alone: also upside down
+  Any      ///< neither, as on leather or foam
+};
+
 struct Fabric {
   std::string id;
   std::string name;
@@ -262,7 +269,7 @@ struct Fabric {
   Ratio thicknessOffset;
   std::optional<Length> rollWidth;
   std::optional<Length> allowance;  ///< of pieces of it, instead of that of the options
-  bool nap = false;                 ///< has an up and a down: its pieces all lie one way
+  Turns turns = Turns::TwoWay;
   Ease ease;
   UnknownKeys unknown;
   friend bool operator==(const Fabric&, const Fabric&) = default;
@@ -300,6 +307,16 @@ struct FinishSettings {
   friend bool operator==(const FinishSettings&, const FinishSettings&) = default;
 };
 
+/// Where a hand put a piece on the sheet: moved and turned from its place on the guiding map, so
+/// that it means the same on another body.
+struct HandPlacement {
+  std::string piece;                               ///< id
+  Eigen::Vector2d move = Eigen::Vector2d::Zero();  ///< mm on the sheet, of the piece's centre
+  Angle turn;                                      ///< counter-clockwise about its centre
+  UnknownKeys unknown{};
+  friend bool operator==(const HandPlacement&, const HandPlacement&) = default;
+};
+
 struct Design {
   std::string name;
   std::vector<ModelReference> models;  ///< the first is the one it was drawn on
@@ -308,7 +325,8 @@ struct Design {
   std::vector<Fabric> fabrics;
   Order order;
   FinishSettings finish;
-  UnknownKeys unknown;  ///< layers, layout, options of later versions
+  std::vector<HandPlacement> layout;  ///< pieces that the layout leaves where a hand put them
+  UnknownKeys unknown;                ///< layers, options of later versions
   friend bool operator==(const Design&, const Design&) = default;
 };
 

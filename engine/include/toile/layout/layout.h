@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "toile/finish/pattern_piece.h"
+#include "toile/model/guiding_map.h"
 
 namespace toile {
 
@@ -17,7 +18,11 @@ struct Placement {
 };
 
 struct Layout {
-  std::vector<Placement> placements;              ///< per pattern piece
+  std::vector<Placement> placements;  ///< per pattern piece
+  /// Per pattern piece its side of the guiding map and its place there, before pieces were moved
+  /// apart.
+  std::vector<MapSide> side;
+  std::vector<Placement> onMap;
   Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< box of all cut lines, mm
   Eigen::Vector2d max = Eigen::Vector2d::Zero();
   std::vector<Finding> findings;
@@ -25,16 +30,24 @@ struct Layout {
 
 inline constexpr double kLayoutGapMm = 10;  ///< least distance between cut lines
 
-/// Places pieces upright as on the body, left and right in their places, without overlaps.
+/// Places pieces as on the body, left and right in their places, without overlaps.
 ///
-/// The guiding map is the model seen from the front (the wearer's right on the left of the sheet)
-/// beside the model seen from behind; each piece goes to the chart that its surface faces, by least
-/// squares over its surface, then pieces are moved outwards or up until cut lines keep their gap
-/// (section 6 of the article's layout; exact polygon test). A mirrored pair stays mirrored.
+/// Each piece is brought to its places on the guiding map by the rigid motion of least squares, by
+/// area, counting only the chart that holds most of it. Then the article's rule parts them: from
+/// the lowest on, sorted by the bottom edge and then from the axis outwards, each that overlaps
+/// what is fixed moves outwards (the left group to the left) or up, whichever is shorter, and what
+/// is still free in its group moves along. Pieces across the axis move up alone. The front of the
+/// map lies beside the back. Overlap is decided on the outlines themselves.
+///
+/// Pieces that mirror each other about the axis are moved together, so that a symmetric design
+/// lies on the sheet exactly symmetric. Pieces placed by hand are fixed from the start.
 /// @param pieceIndex per pattern piece its index in `cut.pieces` and in `flats`.
+/// @param byHand the design's `layout`; two pieces that overlap there are left so, with a finding.
+/// @par Cost  bench/layout_bench.cpp
 Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
                        const std::vector<std::shared_ptr<const FlatPiece>>& flats,
                        const std::vector<PatternPiece>& pattern,
-                       const std::vector<std::uint32_t>& pieceIndex);
+                       const std::vector<std::uint32_t>& pieceIndex,
+                       const std::vector<HandPlacement>& byHand = {});
 
 }  // namespace toile

@@ -23,6 +23,8 @@ struct Symmetry {
   VertexData<VertexId> partner;
 };
 
+class GuidingMapSlot;
+
 /// What is designed on: a mesh with names. A value that shares its large parts.
 struct ReferenceModel {
   std::string name;
@@ -32,7 +34,8 @@ struct ReferenceModel {
   std::map<std::string, SurfacePath> curves;  ///< feature curves
   std::map<std::string, SurfacePoint> landmarks;
   std::optional<Symmetry> symmetry;
-  std::vector<Finding> findings;  ///< from reading
+  std::shared_ptr<GuidingMapSlot> map;  ///< for guidingMap() (toile/model/guiding_map.h)
+  std::vector<Finding> findings;        ///< from reading
 };
 
 /// A model without names, indexed.
