@@ -33,6 +33,17 @@ inline constexpr std::array<std::pair<std::string_view, SubdivisionRule>, 3> kRu
     {"centripetal", SubdivisionRule::Centripetal},
 }};
 
+inline constexpr std::array<std::pair<std::string_view, Grain::Axis>, 3> kGrainAxisNames{{
+    {"x", Grain::Axis::X},
+    {"y", Grain::Axis::Y},
+    {"z", Grain::Axis::Z},
+}};
+
+inline constexpr std::array<std::pair<std::string_view, TwinMode>, 2> kTwinModeNames{{
+    {"identical", TwinMode::Identical},
+    {"mean", TwinMode::Mean},
+}};
+
 template <class Names, class Value>
 [[nodiscard]] constexpr std::string_view nameOf(const Names& names, Value value) {
   for (const auto& [name, candidate] : names) {
