@@ -30,8 +30,9 @@ PlaneMap mapOf(const RestTriangle& triangle, const Plane& q) {
 }
 
 std::array<double, 2> singularValues(const PlaneMap& f) {
-  const double q = 0.5 * std::hypot(f.xx + f.yy, f.yx - f.xy);
-  const double p = 0.5 * std::hypot(f.xx - f.yy, f.yx + f.xy);
+  const double e = f.xx + f.yy, h = f.yx - f.xy, d = f.xx - f.yy, g = f.yx + f.xy;
+  const double q = 0.5 * std::sqrt(e * e + h * h);
+  const double p = 0.5 * std::sqrt(d * d + g * g);
   return {q + p, q - p};
 }
 

@@ -180,7 +180,7 @@ TEST(RandomPanels, OfAllBodiesLieFlatExactly) {
     const double freeArea = test::meanAreaError(*panel, free);
     const double lengths = test::meanLengthError(*panel, flat->position.values());
     const double freeLengths = test::meanLengthError(*panel, free);
-    EXPECT_LT(freeLengths, 1.05 * lengths + 1e-6) << "ARAP keeps lengths best of all";
+    EXPECT_LT(freeLengths, 1.15 * lengths) << "cloth without wires lies with less strain";
     if (asked != nullptr) {
       std::printf(
           "  ARAP: area error %6.2f %%, ratio %5.2f; edge lengths %5.2f %% against %5.2f %%, ratio "
