@@ -98,7 +98,8 @@ ClothEnergy::Jet ClothEnergy::shearing(double s) const {
 }
 
 ClothEnergy::Jet ClothEnergy::areaChange(double j) const {
-  return {area_ * (j - 1) * (j - 1) / j, area_ * (j - 1) * (j + 1) / (j * j), 2 * area_ / (j * j * j)};
+  return {area_ * (j - 1) * (j - 1) / j, area_ * (j - 1) * (j + 1) / (j * j),
+          2 * area_ / (j * j * j)};
 }
 
 double ClothEnergy::energy(const Plane& q) const {

@@ -211,9 +211,8 @@ TEST(WireWarping, AgreesWithASolverInTheSpaceOfAngles) {
     const auto solver = AngleSolver::make(each.piece);
     if (!solver) continue;
     SCOPED_TRACE(each.name);
-    const Result<FlatPiece> flat =
-        unfold(each.piece,
-               {.objective = UnfoldObjective::WireWarping, .weights = WireWeights::Unit});
+    const Result<FlatPiece> flat = unfold(
+        each.piece, {.objective = UnfoldObjective::WireWarping, .weights = WireWeights::Unit});
     ASSERT_TRUE(flat) << flat.error();
     ++compared;
     unfolding::Plane q(2 * static_cast<Eigen::Index>(flat->position.size()));

@@ -119,7 +119,8 @@ TEST(Cloth, OnTheBiasTurnsALargerSquareIntoTheKnownRhombus) {
   for (Wire& wire : piece.wires) {
     for (double& target : wire.targetLength) target *= 1.02;
   }
-  const Result<FlatPiece> flat = unfold(piece, {.areaWeight = 1, .wireStiffness = 0, .cloth = cloth});
+  const Result<FlatPiece> flat =
+      unfold(piece, {.areaWeight = 1, .wireStiffness = 0, .cloth = cloth});
   ASSERT_TRUE(flat) << flat.error();
   EXPECT_TRUE(flat->check.passes());
   const auto diagonal = [&](std::size_t a, std::size_t b) {

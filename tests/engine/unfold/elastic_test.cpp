@@ -159,8 +159,8 @@ TEST(BoxMinimum, IsTheLeastOnAGrid) {
     EXPECT_TRUE((found.array() >= low.array()).all() && (found.array() <= high.array()).all());
     for (int i = 0; i <= 200; ++i) {
       for (int j = 0; j <= 200; ++j) {
-        const Eigen::Vector2d x = low + Eigen::Vector2d((high - low).x() * i / 200.0,
-                                                        (high - low).y() * j / 200.0);
+        const Eigen::Vector2d x =
+            low + Eigen::Vector2d((high - low).x() * i / 200.0, (high - low).y() * j / 200.0);
         EXPECT_GE(value(x), value(found) - 1e-12);
       }
     }
