@@ -24,7 +24,7 @@ struct UnfoldArguments {
   std::string weights = "length";
   std::string symmetry = "auto";
   UnfoldOptions options;
-  std::optional<Ratio> autoDart;
+  std::optional<Ratio> autoDart, elasticRange;
 };
 
 /// Of a patch whose faces were re-cut: the face of IN that each comes from, in their order.
@@ -55,7 +55,12 @@ std::string toJson(const FlatPiece& flat, std::size_t faces) {
         {"flippedFaces", flat.check.flippedFaces},
         {"crossings", flat.check.crossings},
         {"maxTurnErrorDegrees", flat.check.maxTurnError * 180 / std::numbers::pi}}},
+      {"elastics", nlohmann::ordered_json::array()},
       {"findings", nlohmann::ordered_json::array()}};
+  for (const ElasticLine& line : flat.elastic.lines) {
+    json["elastics"].push_back(
+        {{"curve", line.curve}, {"range", line.range}, {"ratio", line.ratio}});
+  }
   for (const Finding& finding : flat.findings) {
     json["findings"].push_back({{"code", finding.code}, {"message", finding.message}});
   }
@@ -73,6 +78,10 @@ void print(const UnfoldArguments& arguments, const FlatPiece& flat, std::size_t 
       "within {:.1e}, {} flipped, {} crossings\n",
       arguments.out.string(), faces, 100 * flat.meanAreaError, 100 * flat.maxAreaError,
       flat.check.maxLengthError, flat.check.flippedFaces, flat.check.crossings);
+  for (const ElasticLine& line : flat.elastic.lines) {
+    fmt::print("  elastic \"{}\": {:+.2f} % of the {:.3g} % allowed\n", line.curve,
+               100 * line.ratio, 100 * line.range);
+  }
 }
 
 /// The piece with symmetric data if it is symmetric but not to rounding: that unfold() sees itself.
@@ -98,9 +107,14 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
   if (arguments.weights == "unit") options.weights = WireWeights::Unit;
   options.keepSymmetry = arguments.symmetry == "auto";
   if (arguments.autoDart) return runAutoDart(arguments, options, *file, session);
-  const Result<Piece> piece =
+  Result<Piece> piece =
       makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
   if (!piece) return fail(piece.error().during(name));
+  for (Wire& wire : piece->wires) {
+    if (wire.kind != WireKind::Elastic) continue;
+    wire.elasticRange =
+        arguments.elasticRange ? arguments.elasticRange->value() : kUsualElasticRange;
+  }
   const std::optional<SymmetricPiece> symmetric =
       options.keepSymmetry ? nearlySymmetric(*piece, options) : std::nullopt;
   const Result<FlatPiece> flat = symmetric ? unfold(*symmetric, options) : unfold(*piece, options);
@@ -181,6 +195,9 @@ void addUnfold(CLI::App& app, Session& session) {
                    "Price of area change against shear, 0 to 1000 (default 2)")
       ->check(CLI::Range(0.0, 1000.0))
       ->type_name("K");
+  addParsed(*command, "--elastic-range", arguments->elasticRange, parseRatio,
+            "How far the lengths of elastic lines may change (default 5%; 0% keeps them)")
+      ->type_name("RATIO");
   addParsed(*command, "--auto-dart", arguments->autoDart, parseRatio,
             "Put in darts until the mean area error is at most this, such as 5%")
       ->type_name("RATIO");

@@ -53,6 +53,30 @@ TEST_F(UnfoldCommand, PutsInDartsAndTellsWhereFacesComeFrom) {
   EXPECT_THAT(text, HasSubstr("# source-face 1\n"));
 }
 
+// A ridge that is to be 3 % longer than its cloth takes that back when it may, by one ratio.
+TEST_F(UnfoldCommand, GivesElasticLinesTheLengthThatStrainsTheClothLeast) {
+  std::string tent = kTent;
+  tent.replace(tent.find("wire_feature_ridge"), 18, "wire_elastic_ridge");
+  writeText(in_, tent + "# target wire_elastic_ridge 0 10.3\n# target wire_elastic_ridge 1 10.3\n");
+  for (const auto& [range, ratio] : {std::pair("5%", 10 / 10.3 - 1), {"1%", -0.01}, {"0%", 0.0}}) {
+    SCOPED_TRACE(range);
+    const ProgramResult result = run({"--units", "mm", "--json", "--elastic-range", range});
+    ASSERT_EQ(result.status, 0) << result.err;
+    const nlohmann::json elastics = nlohmann::json::parse(result.out)["elastics"];
+    ASSERT_EQ(elastics.size(), ratio == 0 ? 0U : 1U);
+    if (ratio != 0) {
+      EXPECT_EQ(elastics[0]["curve"], "ridge");
+      EXPECT_NEAR(elastics[0]["ratio"].get<double>(), ratio, 1e-5);
+    }
+    // The file says what the lengths are now.
+    const Result<MeshFile> flat = readMesh(out_);
+    ASSERT_TRUE(flat) << flat.error();
+    for (const char* edge : {"wire_elastic_ridge 0", "wire_elastic_ridge 1"}) {
+      EXPECT_NEAR(flat->targets.at(edge), 10.3 * (1 + ratio), 1e-3);
+    }
+  }
+}
+
 TEST_F(UnfoldCommand, TellsProgramsTheCheck) {
   const ProgramResult result = run({"--units", "mm", "--json", "--area-weight", "0"});
   ASSERT_EQ(result.status, 0) << result.err;

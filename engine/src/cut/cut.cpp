@@ -48,6 +48,15 @@ void nameFromRecords(Piece& piece, std::vector<int> records, const Design& desig
   piece.recordIndices = std::move(records);
 }
 
+/// Elastic lines, and seams that have a range of their own.
+double elasticRangeOf(const Wire& wire, const Design& design) {
+  if (wire.kind != WireKind::Elastic && wire.kind != WireKind::Seam) return 0;
+  const auto curve = std::find_if(design.curves.begin(), design.curves.end(),
+                                  [&](const StylingCurve& c) { return c.id == wire.curve; });
+  if (curve != design.curves.end() && curve->elasticRange) return curve->elasticRange->value();
+  return wire.kind == WireKind::Elastic ? kUsualElasticRange : 0;
+}
+
 /// The next "piece-<n>" that no record has.
 std::string nextFreeId(const Design& design, int& number) {
   while (true) {
@@ -140,6 +149,7 @@ ContentHash contentHash(const Piece& piece) {
     for (const VertexId v : wire.vertices) hasher.add(v.index());
     for (const double length : wire.bodyLength) hasher.add(length);
     for (const double length : wire.targetLength) hasher.add(length);
+    hasher.add(wire.elasticRange);
   }
   return hasher.finish();
 }
@@ -184,6 +194,11 @@ Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> cur
 
   if (const Result<void> done = cutting::applyEase(document, *owned, builds); !done) {
     return done.error();
+  }
+  for (PieceBuild& build : builds) {
+    for (Wire& wire : build.piece.wires) {
+      wire.elasticRange = elasticRangeOf(wire, *document.design);
+    }
   }
   result.mates = cutting::findMates(refined, builds);
   result.includedArea = includedArea(model, refined, builds);

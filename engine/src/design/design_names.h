@@ -53,6 +53,17 @@ inline constexpr std::array<std::pair<std::string_view, Turns>, 3> kTurnsNames{{
     {"any", Turns::Any},
 }};
 
+inline constexpr std::array<std::pair<std::string_view, Grain::Axis>, 3> kGrainAxisNames{{
+    {"x", Grain::Axis::X},
+    {"y", Grain::Axis::Y},
+    {"z", Grain::Axis::Z},
+}};
+
+inline constexpr std::array<std::pair<std::string_view, TwinMode>, 2> kTwinModeNames{{
+    {"identical", TwinMode::Identical},
+    {"mean", TwinMode::Mean},
+}};
+
 template <class Names, class Value>
 [[nodiscard]] constexpr std::string_view nameOf(const Names& names, Value value) {
   for (const auto& [name, candidate] : names) {

@@ -331,6 +331,39 @@ DevelopSetting readDevelop(const JsonPlace& at) {
   return develop;
 }
 
+Grain readGrain(const JsonPlace& at) {
+  JsonObject object(at);
+  Grain grain;
+  if (const auto along = object.find("along")) grain.along = along->oneOf(kGrainAxisNames);
+  if (const auto turn = object.find("turn")) grain.turn = turn->parsed(parseAngle, Angle());
+  grain.unknown = object.unknown();
+  return grain;
+}
+
+Twin readTwin(const JsonPlace& at) {
+  JsonObject object(at);
+  Twin twin;
+  twin.of = readId(object.need("of"));
+  if (const auto mode = object.find("mode")) twin.mode = mode->oneOf(kTwinModeNames);
+  twin.unknown = object.unknown();
+  return twin;
+}
+
+ClothWeights readWeights(const JsonPlace& at) {
+  constexpr double kLeast = 1e-3, kMost = 1e3;
+  JsonObject object(at);
+  ClothWeights weights;
+  const auto read = [&](std::string_view key, double& weight) {
+    const auto found = object.find(key);
+    if (found) weight = found->numberIn(kLeast, kMost);
+  };
+  read("along", weights.along);
+  read("across", weights.across);
+  read("shear", weights.shear);
+  weights.unknown = object.unknown();
+  return weights;
+}
+
 PieceRecord readPiece(const JsonPlace& at) {
   JsonObject object(at);
   PieceRecord piece;
@@ -345,6 +378,8 @@ PieceRecord readPiece(const JsonPlace& at) {
   if (const auto fabric = object.find("fabric")) piece.fabric = readId(*fabric);
   if (const auto ease = object.find("ease")) piece.ease = readEase(*ease);
   if (const auto develop = object.find("develop")) piece.develop = readDevelop(*develop);
+  if (const auto grain = object.find("grain")) piece.grain = readGrain(*grain);
+  if (const auto twin = object.find("twin")) piece.twin = readTwin(*twin);
   if (const auto boundary = object.find("boundary")) {
     for (const JsonPlace& item : boundary->items()) piece.boundary.push_back(readId(item));
   }
@@ -376,6 +411,7 @@ Fabric readFabric(const JsonPlace& at) {
   fabric.stretchAlong = limit("stretchAlong");
   fabric.stretchAcross = limit("stretchAcross");
   fabric.shear = limit("shear");
+  if (const auto weights = object.find("weights")) fabric.weights = readWeights(*weights);
   if (const auto thickness = object.find("thickness")) {
     fabric.thickness = readLengthFrom(*thickness, Length());
   }
@@ -539,6 +575,7 @@ void checkCurveReferences(const StylingCurve& curve, const KnownIds& curves, con
 void checkReferences(const Design& design, JsonObject& root) {
   const KnownIds curves("curve", design.curves);
   const KnownIds fabrics("fabric", design.fabrics);
+  const KnownIds pieces("piece", design.pieces);
   for (std::size_t i = 0; i < design.curves.size(); ++i) {
     checkCurveReferences(design.curves[i], curves, root.need("curves").item(i));
   }
@@ -546,6 +583,9 @@ void checkReferences(const Design& design, JsonObject& root) {
     const JsonPlace at = root.need("pieces").item(i);
     curves.check(design.pieces[i].anchor, at);
     if (!design.pieces[i].fabric.empty()) fabrics.check(design.pieces[i].fabric, at);
+    if (!design.pieces[i].twin) continue;
+    pieces.check(design.pieces[i].twin->of, at);
+    if (design.pieces[i].twin->of == design.pieces[i].id) at.fail("a piece is no twin of itself");
   }
 }
 

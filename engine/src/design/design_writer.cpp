@@ -290,6 +290,30 @@ std::string text(const DevelopSetting& develop) {
   return out.addUnknown(develop.unknown).row();
 }
 
+std::string text(const Grain& grain) {
+  Members out;
+  if (grain.along != Grain().along)
+    out.add("along", quoteJson(nameOf(kGrainAxisNames, grain.along)));
+  if (grain.turn != Angle()) out.add("turn", quantity(grain.turn));
+  return out.addUnknown(grain.unknown).row();
+}
+
+std::string text(const Twin& twin) {
+  Members out;
+  out.add("of", quoteJson(twin.of));
+  if (twin.mode != Twin().mode) out.add("mode", quoteJson(nameOf(kTwinModeNames, twin.mode)));
+  return out.addUnknown(twin.unknown).row();
+}
+
+std::string text(const ClothWeights& weights) {
+  return Members()
+      .add("along", formatExact(weights.along))
+      .add("across", formatExact(weights.across))
+      .add("shear", formatExact(weights.shear))
+      .addUnknown(weights.unknown)
+      .row();
+}
+
 std::string text(const PieceRecord& piece, int indent) {
   Members out;
   out.add("id", quoteJson(piece.id));
@@ -300,6 +324,8 @@ std::string text(const PieceRecord& piece, int indent) {
   out.addText("fabric", piece.fabric);
   if (piece.ease) out.add("ease", text(*piece.ease));
   if (piece.develop) out.add("develop", text(*piece.develop));
+  if (piece.grain) out.add("grain", text(*piece.grain));
+  if (piece.twin) out.add("twin", text(*piece.twin));
   if (!piece.boundary.empty()) out.add("boundary", row(each(piece.boundary, quoteJson)));
   return out.addUnknown(piece.unknown).block(indent);
 }
@@ -312,6 +338,7 @@ std::string text(const Fabric& fabric, int indent) {
   if (fabric.stretchAlong) out.add("stretchAlong", quantity(*fabric.stretchAlong));
   if (fabric.stretchAcross) out.add("stretchAcross", quantity(*fabric.stretchAcross));
   if (fabric.shear) out.add("shear", quantity(*fabric.shear));
+  if (fabric.weights) out.add("weights", text(*fabric.weights));
   out.add("thickness", quantity(fabric.thickness));
   if (fabric.thicknessOffset != Ratio()) {
     out.add("thicknessOffset", quantity(fabric.thicknessOffset));

@@ -22,7 +22,7 @@ bool isOn(float s, float on, float off) {
 constexpr float kStitch = 3.4F, kStitchGap = 1.8F, kThread = 0.42F;
 
 /// A row of stitches at that distance from the line.
-void stitch(Painted& at, const Cloth& cloth, float d, float s, float row) {
+void stitch(Painted& at, const ClothPaint& cloth, float d, float s, float row) {
   const float off = std::abs(d - row);
   if (off < kThread && isOn(s, kStitch, kStitchGap)) {
     at.colour = cloth.thread;
@@ -31,13 +31,13 @@ void stitch(Painted& at, const Cloth& cloth, float d, float s, float row) {
   }
 }
 
-void paintSeam(Painted& at, const Cloth& cloth, float d, float s) {
+void paintSeam(Painted& at, const ClothPaint& cloth, float d, float s) {
   at.shade *= (1 - 0.20F * bell(d, 4.2F)) * (1 - 0.62F * bell(d, 0.75F));
   stitch(at, cloth, d, s, 2.3F);
   at.fine = d < 4;
 }
 
-void paintHem(Painted& at, const Cloth& cloth, float d, float s) {
+void paintHem(Painted& at, const ClothPaint& cloth, float d, float s) {
   at.shade *= (1 - 0.12F * bell(d, 2.0F)) * (1 - 0.55F * bell(d, 0.6F));
   stitch(at, cloth, d, s, 3.2F);
   at.fine = d < 5;
@@ -50,7 +50,7 @@ void paintDart(Painted& at, float d) {
 
 constexpr float kTapeEdge = 3.3F;
 
-void paintZip(Painted& at, const Cloth& cloth, const SurfaceLines::Pass& zip, float unit) {
+void paintZip(Painted& at, const ClothPaint& cloth, const SurfaceLines::Pass& zip, float unit) {
   const SurfaceLine& line = *zip.line;
   const float d = zip.across / unit;
   const float s = zip.along / unit;
@@ -118,14 +118,14 @@ bool inkPlain(Painted& at, const SurfaceLines::Pass& pass, float unit) {
 
 }  // namespace
 
-Cloth makeCloth(Colour colour) {
+ClothPaint makeCloth(Colour colour) {
   const bool dark = lightness(colour) < 0.55;
   const Colour thread =
       dark ? mix(colour, colourOf(0xFFFFFF), 0.62) : mix(colour, colourOf(0x1E2227), 0.50);
   return {linearOf(colour), linearOf(thread)};
 }
 
-Painted paintProduct(const SurfaceLines::Near& near, const Cloth& cloth, float unit) {
+Painted paintProduct(const SurfaceLines::Near& near, const ClothPaint& cloth, float unit) {
   Painted at;
   at.colour = cloth.colour;
   if (near.inside.line != nullptr) {
@@ -168,7 +168,7 @@ Painted paintProduct(const SurfaceLines::Near& near, const Cloth& cloth, float u
   return at;
 }
 
-Painted paintPlain(const SurfaceLines::Near& near, const Cloth& cloth, float unit) {
+Painted paintPlain(const SurfaceLines::Near& near, const ClothPaint& cloth, float unit) {
   Painted at;
   at.colour = cloth.colour;
   if (inkPlain(at, near.border, unit) || inkPlain(at, near.zip, unit)) return at;

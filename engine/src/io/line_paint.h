@@ -8,11 +8,11 @@
 namespace toile {
 
 /// Colours of a part of the surface, linear.
-struct Cloth {
+struct ClothPaint {
   Eigen::Vector3f colour = Eigen::Vector3f::Zero();
   Eigen::Vector3f thread = Eigen::Vector3f::Zero();  ///< of stitches and subtle lines on it
 };
-[[nodiscard]] Cloth makeCloth(Colour colour);
+[[nodiscard]] ClothPaint makeCloth(Colour colour);
 
 /// The surface at a point after its lines are painted: a colour that the light falls on, how far
 /// the light gets there, and paint that shines by itself.
@@ -29,9 +29,11 @@ inline constexpr float kPaintReach = 8;
 
 /// Seams flatlocked with a row of stitches on either side, hems with one, zips with teeth, tapes
 /// and slider, darts closed; inner lines hardly seen. @param unit mm per px of the line styles
-[[nodiscard]] Painted paintProduct(const SurfaceLines::Near& near, const Cloth& cloth, float unit);
+[[nodiscard]] Painted paintProduct(const SurfaceLines::Near& near, const ClothPaint& cloth,
+                                   float unit);
 
 /// The lines in the colours and dashes of their kinds.
-[[nodiscard]] Painted paintPlain(const SurfaceLines::Near& near, const Cloth& cloth, float unit);
+[[nodiscard]] Painted paintPlain(const SurfaceLines::Near& near, const ClothPaint& cloth,
+                                 float unit);
 
 }  // namespace toile

@@ -121,7 +121,7 @@ Sample ModelRenderer::Shot::shade(const FirstHit& hit, const Vector3f& direction
     return w * values[c[0]] + hit.u * values[c[1]] + hit.v * values[c[2]];
   };
   const std::uint32_t part = scene_.partOfFace[hit.primitive];
-  const Cloth& cloth = scene_.cloth[part];
+  const ClothPaint& cloth = scene_.cloth[part];
   const SurfaceLines::Near near = scene_.lines.near(part, blend(scene_.positions));
   Painted at =
       isProduct_ ? paintProduct(near, cloth, studio_.unit) : paintPlain(near, cloth, studio_.unit);

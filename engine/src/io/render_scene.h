@@ -20,7 +20,7 @@ struct RenderScene {
   std::vector<Eigen::Vector3f> normals;
   std::vector<std::uint32_t> corners;  ///< three per face
   std::vector<std::uint32_t> partOfFace;
-  std::vector<Cloth> cloth;  ///< per part
+  std::vector<ClothPaint> cloth;  ///< per part
   SurfaceLines lines;
   RayScene surface;
   Eigen::Vector3d middle = Eigen::Vector3d::Zero();

@@ -85,6 +85,7 @@ class HtmlReport {
   std::string write() {
     addHead();
     addTrouble();
+    addElastics();
     addPieces();
     addSeams();
     addInnerWires();
@@ -125,6 +126,17 @@ class HtmlReport {
     addFact("Edges with exact length", fmt::format("{}", data_.wireEdges));
     addFact("Greatest length error", powerOfTen(data_.maxEdgeError));
     out_ += "</dl>\n";
+  }
+
+  void addElastics() {
+    if (pattern_.elastics.empty()) return;
+    out_ += "<h2>Elastic lines</h2>\n<ul>\n";
+    for (const ElasticLine& line : pattern_.elastics) {
+      out_ += fmt::format("<li><b>{}</b>: {} of its length, {:.3g}{}% allowed either way</li>\n",
+                          curveName(line.curve), signedPercent(line.ratio), 100 * line.range,
+                          kThinSpace);
+    }
+    out_ += "</ul>\n";
   }
 
   void addFact(const char* term, const std::string& value) {

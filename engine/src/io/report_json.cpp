@@ -189,6 +189,11 @@ std::string writeReportJson(const Pattern& pattern) {
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
     json["pieces"].push_back(pieceJson(pattern, data, i, files[i]));
   }
+  json["elastics"] = Json::array();
+  for (const ElasticLine& line : pattern.elastics) {
+    json["elastics"].push_back(
+        {{"curve", line.curve}, {"range", line.range}, {"ratio", line.ratio}});
+  }
   json["findings"] = Json::array();
   for (const Finding& finding : pattern.findings) json["findings"].push_back(toJson(finding));
   json["failures"] = Json::array();

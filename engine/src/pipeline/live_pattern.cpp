@@ -7,6 +7,7 @@
 #include <string>
 
 #include "pipeline/stages.h"
+#include "pipeline/unfold_options.h"
 #include "toile/core/parallel.h"
 
 namespace toile {
@@ -55,7 +56,8 @@ Result<Pattern> LivePattern::State::preview(const Document& document,
   std::vector<const PatternCache::Entry*> entries(pieces.size(), nullptr);
   std::vector<std::pair<std::size_t, UnfoldPreview*>> work;
   for (const std::size_t i : stages::workOrder(pattern.cut)) {
-    const ContentHash key = stages::cacheKey(contentHash(pieces[i]), options.unfold,
+    const UnfoldOptions own = unfoldOptionsOf(*document.design, pieces[i], options.unfold);
+    const ContentHash key = stages::cacheKey(contentHash(pieces[i]), own,
                                              stages::developOptions(pattern, pieces[i], options));
     const auto found = cache.entries.find(key);
     if (found != cache.entries.end()) {
@@ -63,7 +65,7 @@ Result<Pattern> LivePattern::State::preview(const Document& document,
       continue;
     }
     std::unique_ptr<UnfoldPreview>& known = previews[pieces[i].id];
-    if (!known) known = std::make_unique<UnfoldPreview>(options.unfold);
+    if (!known) known = std::make_unique<UnfoldPreview>(own);
     work.emplace_back(i, known.get());
     touched.insert(i);
   }

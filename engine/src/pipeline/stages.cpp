@@ -7,6 +7,10 @@
 #include <atomic>
 #include <set>
 
+#include "pipeline/elastics.h"
+#include "pipeline/symmetric_lines.h"
+#include "pipeline/twins.h"
+#include "pipeline/unfold_options.h"
 #include "toile/core/content_hash.h"
 #include "toile/core/parallel.h"
 
@@ -142,10 +146,12 @@ Result<void> placeAndCut(Pattern& pattern, Progress* progress) {
   Result<std::vector<PlacedCurve>> curves = placeCurves(design, *pattern.document.model);
   if (!curves) return curves.error();
   if (isCancelled(progress)) return cancelled();
+  makeLinesSymmetric(pattern.document, *curves);
   Result<CutResult> result = cut(pattern.document, *curves, progress);
   if (!result) return result.error();
   pattern.curves = std::move(*curves);
   pattern.cut = std::move(*result);
+  makeTwins(pattern);
   return {};
 }
 
@@ -174,7 +180,7 @@ std::optional<DevelopOptions> developOptions(const Pattern& pattern, const Piece
                                              const MakeOptions& options) {
   const PieceRecord* record = recordOf(*pattern.document.design, piece.id);
   DevelopOptions develop;
-  develop.unfold = options.unfold;
+  develop.unfold = unfoldOptionsOf(*pattern.document.design, piece, options.unfold);
   if (record != nullptr && record->develop) {
     const DevelopSetting& setting = *record->develop;
     develop.maxAreaError = setting.maxAreaError;
@@ -200,7 +206,16 @@ ContentHash cacheKey(const ContentHash& piece, const UnfoldOptions& options,
       .add(options.wireStiffness)
       .add(options.maxSteps)
       .add(options.keepSymmetry)
+      .add(options.cloth.has_value())
       .add(develop.has_value());
+  if (options.cloth) {
+    const Cloth& cloth = *options.cloth;
+    hasher.add(cloth.weights.along).add(cloth.weights.across).add(cloth.weights.shear);
+    for (const auto& limit : {cloth.stretchAlong, cloth.stretchAcross, cloth.shear}) {
+      hasher.add(limit ? limit->value() : -1.0);
+    }
+    hasher.add(cloth.grain.along).add(cloth.grain.turn.radians());
+  }
   if (develop) {
     hasher.add(develop->maxAreaError.has_value())
         .add(develop->maxAreaError ? develop->maxAreaError->value() : develop->amount)
@@ -253,6 +268,8 @@ void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>
 
 void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
                   Progress* progress) {
+  settleElastics(pattern, options, progress);
+  const Design& design = *pattern.document.design;
   const std::vector<Piece>& pieces = pattern.cut.pieces;
   const std::vector<std::size_t> order = workOrder(pattern.cut);
   ++cache.patterns;
@@ -260,9 +277,16 @@ void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& ca
   std::vector<PatternCache::Entry> fresh(pieces.size());
   std::vector<const PatternCache::Entry*> entries(pieces.size(), nullptr);
   std::vector<std::optional<DevelopOptions>> processing(pieces.size());
+  for (const std::size_t i : order) processing[i] = developOptions(pattern, pieces[i], options);
+  // A twin's answer is its original's; processed ones are processed each by itself.
+  const auto isMirrored = [&](std::size_t i) {
+    return !pattern.twinOf.empty() && pattern.twinOf[i] && !processing[i] &&
+           !processing[*pattern.twinOf[i]];
+  };
   for (const std::size_t i : order) {
-    processing[i] = developOptions(pattern, pieces[i], options);
-    keys[i] = cacheKey(contentHash(pieces[i]), options.unfold, processing[i]);
+    if (isMirrored(i)) continue;
+    keys[i] = cacheKey(contentHash(pieces[i]), unfoldOptionsOf(design, pieces[i], options.unfold),
+                       processing[i]);
     const auto found = cache.entries.find(keys[i]);
     if (found == cache.entries.end()) continue;
     found->second.lastUsed = cache.patterns;
@@ -274,14 +298,15 @@ void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& ca
   parallelFor(order.size(), [&](std::size_t turn) {
     const std::size_t i = order[turn];
     const std::size_t number = ++begun;
-    if (entries[i] != nullptr || isCancelled(progress)) return;
+    if (entries[i] != nullptr || isMirrored(i) || isCancelled(progress)) return;
     tell(progress,
          fmt::format("unfold {} ({} of {})", pieces[i].name.empty() ? pieces[i].id : pieces[i].name,
                      number, order.size()));
-    fresh[i] = solve(pieces[i], options.unfold, processing[i], progress);
+    fresh[i] = solve(pieces[i], unfoldOptionsOf(design, pieces[i], options.unfold), processing[i],
+                     progress);
   });
   for (const std::size_t i : order) {
-    if (entries[i] != nullptr) continue;
+    if (entries[i] != nullptr || isMirrored(i)) continue;
     ++cache.solved;
     entries[i] = &fresh[i];
     if (!fresh[i].flat && (!fresh[i].error || fresh[i].error->code == ErrorCode::Cancelled)) {
@@ -289,6 +314,14 @@ void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& ca
     }
     fresh[i].lastUsed = cache.patterns;
     entries[i] = &cache.entries.insert_or_assign(keys[i], std::move(fresh[i])).first->second;
+  }
+  for (const std::size_t i : order) {
+    if (!isMirrored(i) || entries[*pattern.twinOf[i]] == nullptr) continue;
+    fresh[i] = *entries[*pattern.twinOf[i]];
+    if (fresh[i].flat) {
+      fresh[i].flat = std::make_shared<const FlatPiece>(mirrorImage(*fresh[i].flat));
+    }
+    entries[i] = &fresh[i];
   }
   takeEntries(pattern, entries);
 }

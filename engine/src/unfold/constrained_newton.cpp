@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unfold/constrained_newton.h"
 
+#include "unfold/box_minimum.h"
+
 #include <algorithm>
 #include <cmath>
 
@@ -21,6 +23,9 @@ constexpr double kStallStep = 1e-4;
 constexpr int kStallSteps = 3;
 constexpr int kMaxHalvings = 40;
 constexpr int kMaxProjections = 30;
+/// Energy of an elastic line's ratio of 1, as a share of the piece's own: next to nothing, so that
+/// a ratio which changes nothing else stays 0.
+constexpr double kElasticPrice = 1e-4;
 
 }  // namespace
 
@@ -72,10 +77,10 @@ void ConstrainedNewton::solveTied(const Eigen::VectorXd& right, Eigen::VectorXd&
 // (H + penalty J^T J) d = -(g + J^T (lambda + penalty c)) fulfils H d + g + J^T lambda' = 0 with
 // lambda' = lambda + penalty (J d + c) exactly; repeating with the residual r = J d + c as the new
 // right side drives J d + c to zero.
-void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda,
-                                  Plane& d) {
+void ConstrainedNewton::solveStep(const Eigen::VectorXd& gradient, const Eigen::VectorXd& residual,
+                                  Eigen::VectorXd& lambda, Plane& d) {
   constexpr int kMaxRepeats = 8;
-  Eigen::VectorXd right = gradient_;
+  Eigen::VectorXd right = gradient;
   lengths_->addTransposeTimes(lambda + kPenalty * residual, right);
   right = -right;
   solveTied(right, d);
@@ -92,6 +97,36 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& residual, Eigen::Vector
     solveTied(right, e);
     d += e;
   }
+}
+
+// The step that changes ratio k alone by 1 fulfils H w + J^T mu = 0, J w = L with the targets L of
+// its line. The energy that a step d + W r ends at is quadratic in r: its gradient at r = 0 is -L^T
+// lambda', its second derivatives are W^T H W = -L^T mu.
+ConstrainedNewton::RatioSteps ConstrainedNewton::ratioSteps(const Eigen::VectorXd& lambda,
+                                                            const Eigen::VectorXd& ratios) {
+  const Eigen::VectorXd none = Eigen::VectorXd::Zero(gradient_.size());
+  const auto count = static_cast<Eigen::Index>(lengths_->elasticCount());
+  RatioSteps steps{Eigen::MatrixXd(gradient_.size(), count),
+                   Eigen::MatrixXd(lambda.size(), count),
+                   {Eigen::VectorXd(count), Eigen::MatrixXd(count, count)}};
+  std::vector<Eigen::VectorXd> targets;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    targets.push_back(lengths_->targetsOf(static_cast<std::size_t>(k)));
+    Eigen::VectorXd change = Eigen::VectorXd::Zero(lambda.size());
+    Plane d;
+    solveStep(none, -targets.back(), change, d);
+    steps.q.col(k) = d;
+    steps.lambda.col(k) = change;
+  }
+  const double price = kElasticPrice * areaScale_;
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const Eigen::VectorXd& target = targets[static_cast<std::size_t>(k)];
+    steps.model.gradient[k] = price * ratios[k] - target.dot(lambda);
+    steps.model.stiffness.row(k) = -target.transpose() * steps.lambda;
+    steps.model.stiffness(k, k) += price;
+  }
+  steps.model.stiffness = 0.5 * (steps.model.stiffness + steps.model.stiffness.transpose()).eval();
+  return steps;
 }
 
 /// The shortest s, measured by the matrix, with J s = -residual.
@@ -119,8 +154,16 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
   double indefinite = 1;
   int shortSteps = 0;
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
-  Eigen::VectorXd c = lengths_->residual(state.q);
-  double e = energy(state.q);
+  Eigen::VectorXd c = lengths_->residual(state.q, state.ratios);
+  const auto elasticCount = static_cast<Eigen::Index>(lengths_->elasticCount());
+  Eigen::VectorXd range(elasticCount);
+  for (Eigen::Index k = 0; k < elasticCount; ++k) {
+    range[k] = lengths_->range(static_cast<std::size_t>(k));
+  }
+  const auto energyAt = [&](const Plane& q, const Eigen::VectorXd& ratios) {
+    return energy(q) + 0.5 * kElasticPrice * areaScale_ * ratios.squaredNorm();
+  };
+  double e = energyAt(state.q, state.ratios);
   for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     lengths_->linearise(state.q);
@@ -139,13 +182,22 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
 
     Plane d;
     Eigen::VectorXd lambda = state.lambda;
-    solveStep(c, lambda, d);
+    solveStep(gradient_, c, lambda, d);
+    Eigen::VectorXd ratioStep = Eigen::VectorXd::Zero(elasticCount);
+    if (elasticCount > 0) {
+      const RatioSteps byRatio = ratioSteps(lambda, state.ratios);
+      ratioStep = minimumInBox(byRatio.model.gradient, byRatio.model.stiffness,
+                               -range - state.ratios, range - state.ratios);
+      d += byRatio.q * ratioStep;
+      lambda += byRatio.lambda * ratioStep;
+    }
     if (!d.allFinite()) return NewtonEnd::Stalled;
 
     const Eigen::VectorXd wanted = 1.3 * lambda.cwiseAbs();
     nu = wanted.cwiseMax(0.5 * (nu + wanted));
     const double merit = e + nu.dot(c.cwiseAbs());
-    const double slope = gradient_.dot(d) - nu.dot(c.cwiseAbs());
+    const double slope = gradient_.dot(d) - nu.dot(c.cwiseAbs()) +
+                         kElasticPrice * areaScale_ * state.ratios.dot(ratioStep);
 
     double border = std::numeric_limits<double>::infinity();
     for (const EnergyTerm* term : terms_) {
@@ -154,19 +206,23 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
     double alpha = std::min(1.0, kShareOfWayToFlip * border);
     // What the linearised lengths miss on the way is of second order in alpha.
     const Eigen::VectorXd missed =
-        (lengths_->residual(state.q + alpha * d) - (1 - alpha) * c) / (alpha * alpha);
+        (lengths_->residual(state.q + alpha * d, state.ratios + alpha * ratioStep) -
+         (1 - alpha) * c) /
+        (alpha * alpha);
     const Plane s = leastCorrection(missed, 2);
 
     const double rounding = 1e-14 * std::abs(merit) + 1e-30 * areaScale_;
     Plane trial;
-    Eigen::VectorXd trialC;
+    Eigen::VectorXd trialC, trialRatios;
     double trialE = 0;
     bool accepted = false;
     for (int halving = 0; halving < kMaxHalvings; ++halving, alpha *= 0.5) {
       trial = state.q + alpha * d + alpha * alpha * s;
-      trialE = energy(trial);
+      // A full step to the end of a range ends there, not a rounding beside it.
+      trialRatios = (state.ratios + alpha * ratioStep).cwiseMax(-range).cwiseMin(range);
+      trialE = energyAt(trial, trialRatios);
       if (!std::isfinite(trialE)) continue;
-      trialC = lengths_->residual(trial);
+      trialC = lengths_->residual(trial, trialRatios);
       if (trialE + nu.dot(trialC.cwiseAbs()) <= merit + kArmijo * alpha * slope + rounding) {
         accepted = true;
         break;
@@ -177,6 +233,7 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
       return lengths_->worst(c) < limits.lengths ? NewtonEnd::Converged : NewtonEnd::Stalled;
     }
     state.q = trial;
+    state.ratios = trialRatios;
     state.lambda += alpha * (lambda - state.lambda);
     c = trialC;
     e = trialE;
@@ -196,7 +253,7 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
 }
 
 double ConstrainedNewton::project(NewtonState& state) {
-  Eigen::VectorXd c = lengths_->residual(state.q);
+  Eigen::VectorXd c = lengths_->residual(state.q, state.ratios);
   double error = lengths_->worstForUser(c);
   double factoredAt = error;
   int sinceFactor = 0;
@@ -204,7 +261,7 @@ double ConstrainedNewton::project(NewtonState& state) {
     // The factor and the J it was made with belong together: a new J alone diverges.
     const Plane s = leastCorrection(c, 1);
     const Plane trial = state.q + s;
-    const Eigen::VectorXd trialC = lengths_->residual(trial);
+    const Eigen::VectorXd trialC = lengths_->residual(trial, state.ratios);
     const double trialError = lengths_->worstForUser(trialC);
     ++sinceFactor;
     if (trialError < error && std::isfinite(energy(trial))) {
@@ -228,13 +285,22 @@ void ConstrainedNewton::projectRoughly(NewtonState& state) {
   constexpr int kRounds = 2;
   constexpr double kEnough = 1e-5;
   for (int i = 0; i < kRounds; ++i) {
-    const Eigen::VectorXd c = lengths_->residual(state.q);
+    const Eigen::VectorXd c = lengths_->residual(state.q, state.ratios);
     if (lengths_->worst(c) < kEnough) break;
     const Plane trial = state.q + leastCorrection(c, 1);
     if (!std::isfinite(energy(trial))) break;
     state.q = trial;
   }
   for (EnergyTerm* term : terms_) term->moveTo(state.q);
+}
+
+ElasticModel ConstrainedNewton::elasticModelAt(const NewtonState& state) {
+  lengths_->linearise(state.q);
+  if (!assembleAndFactor(state, 1) && !assembleAndFactor(state, 0)) return {};
+  Eigen::VectorXd lambda = state.lambda;
+  Plane d;
+  solveStep(gradient_, lengths_->residual(state.q, state.ratios), lambda, d);
+  return ratioSteps(lambda, state.ratios).model;
 }
 
 bool ConstrainedNewton::isStableAt(const NewtonState& state) {

@@ -14,6 +14,7 @@ namespace toile::unfolding {
 struct NewtonState {
   Plane q;
   Eigen::VectorXd lambda;  ///< multiplier per wire edge: > 0 tension, < 0 compression
+  Eigen::VectorXd ratios;  ///< of the elastic lines
   int steps = 0;           ///< in all
 };
 
@@ -24,13 +25,21 @@ struct NewtonLimits {
   double decrease = 1e-4;  ///< of the merit function that the next step promises, relative
 };
 
+/// What other ratios of the elastic lines would change, to second order.
+struct ElasticModel {
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd stiffness;
+};
+
 enum class NewtonEnd { Converged, Stalled, StepLimit, Cancelled };
 
 /// Minimises a sum of energy terms subject to the exact lengths of the wires.
 ///
 /// Sequential quadratic programming that starts anywhere without flips. The matrix factored is
 /// H + penalty J^T J, which is positive definite exactly if H is so along the constraints, has the
-/// pattern of the mesh, and solves the full KKT system by one to three repeated solves.
+/// pattern of the mesh, and solves the full KKT system by one to three repeated solves. The ratios
+/// of elastic lines are few: the step is linear in them, so that they are found from a small
+/// quadratic function in the box of their ranges, one more solve for each.
 /// @see Nocedal and Wright, "Numerical Optimization", 2nd ed., 2006, chapters 17 and 18;
 ///   docs/unfolding.md.
 class ConstrainedNewton {
@@ -53,12 +62,21 @@ class ConstrainedNewton {
   /// Whether the last point is a minimum with the wires' compression fully counted; false means
   /// that some wire would like to wave.
   [[nodiscard]] bool isStableAt(const NewtonState& state);
+  /// At a minimum.
+  [[nodiscard]] ElasticModel elasticModelAt(const NewtonState& state);
 
  private:
   [[nodiscard]] double energy(const Plane& q) const;
   [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double indefinite);
   void solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x);
-  void solveStep(const Eigen::VectorXd& residual, Eigen::VectorXd& lambda, Plane& d);
+  void solveStep(const Eigen::VectorXd& gradient, const Eigen::VectorXd& residual,
+                 Eigen::VectorXd& lambda, Plane& d);
+  /// How step and multipliers of solveStep() change with the ratios, in columns.
+  struct RatioSteps {
+    Eigen::MatrixXd q, lambda;
+    ElasticModel model;
+  };
+  [[nodiscard]] RatioSteps ratioSteps(const Eigen::VectorXd& lambda, const Eigen::VectorXd& ratios);
   [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
 
   std::vector<EnergyTerm*> terms_;

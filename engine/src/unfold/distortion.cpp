@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "unfold/check.h"
-#include "unfold/strain_energy.h"
+#include "unfold/triangle_energy.h"
 
 namespace toile::unfolding {
 

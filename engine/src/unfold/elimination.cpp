@@ -17,21 +17,44 @@ constexpr int kSmall = 16;
 constexpr double kZerosOfSmall = 0.3;
 constexpr double kZeros = 0.07;
 
-std::vector<int> minimumDegreeOrder(const BlockPattern& pattern) {
+/// The upper triangle of the pattern with its nodes numbered backward.
+struct Backward {
+  std::vector<int> start, row;
+
+  explicit Backward(const BlockPattern& pattern)
+      : start(pattern.nodeCount() + 1, 0), row(pattern.nodeRow().size()) {
+    const int n = static_cast<int>(pattern.nodeCount());
+    for (const int i : pattern.nodeRow()) ++start[static_cast<std::size_t>(n - i)];
+    std::partial_sum(start.begin(), start.end(), start.begin());
+    std::vector<int> fill(start.begin(), start.end() - 1);
+    for (int j = n - 1; j >= 0; --j) {
+      const auto column = static_cast<std::size_t>(j);
+      for (int k = pattern.nodeStart()[column]; k < pattern.nodeStart()[column + 1]; ++k) {
+        const auto turned =
+            static_cast<std::size_t>(n - 1 - pattern.nodeRow()[static_cast<std::size_t>(k)]);
+        row[static_cast<std::size_t>(fill[turned]++)] = n - 1 - j;
+      }
+    }
+  }
+};
+
+/// @param start, row the upper triangle in compressed columns, rows ascending.
+std::vector<int> minimumDegreeOrder(const std::vector<int>& start, const std::vector<int>& row) {
+  const std::size_t n = start.size() - 1;
   cholmod_common common{};
   cholmod_start(&common);
   common.print = 0;
   cholmod_sparse a{};
-  a.nrow = a.ncol = pattern.nodeCount();
-  a.nzmax = pattern.nodeRow().size();
-  a.p = const_cast<int*>(pattern.nodeStart().data());
-  a.i = const_cast<int*>(pattern.nodeRow().data());
+  a.nrow = a.ncol = n;
+  a.nzmax = row.size();
+  a.p = const_cast<int*>(start.data());
+  a.i = const_cast<int*>(row.data());
   a.stype = 1;
   a.itype = CHOLMOD_INT;
   a.xtype = CHOLMOD_PATTERN;
   a.dtype = CHOLMOD_DOUBLE;
   a.sorted = a.packed = 1;
-  std::vector<int> order(pattern.nodeCount());
+  std::vector<int> order(n);
   const bool done = cholmod_amd(&a, nullptr, 0, order.data(), &common) != 0;
   cholmod_finish(&common);
   if (!done) throw std::bad_alloc();
@@ -176,9 +199,13 @@ std::vector<int> supernodeStarts(const std::vector<int>& parent, const std::vect
 }  // namespace
 
 Elimination::Elimination(const BlockPattern& pattern) : placeOfNode(pattern.nodeCount()) {
-  const std::vector<int> order = minimumDegreeOrder(pattern);
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    placeOfNode[static_cast<std::size_t>(order[i])] = static_cast<int>(i);
+  // Minimum degree leaves many ties, which the numbering decides: backward, a mesh that is numbered
+  // ring by ring from its middle costs a fifth less, and others the same.
+  const Backward backward(pattern);
+  const std::vector<int> order = minimumDegreeOrder(backward.start, backward.row);
+  const int last = static_cast<int>(order.size()) - 1;
+  for (int i = 0; i <= last; ++i) {
+    placeOfNode[static_cast<std::size_t>(last - order[static_cast<std::size_t>(i)])] = i;
   }
   std::vector<int> parent, count;
   {

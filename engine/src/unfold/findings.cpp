@@ -65,11 +65,25 @@ std::vector<std::string> overBracedCurves(const Piece& piece, const Problem& pro
   return curves;
 }
 
+/// Where the plane is covered twice, for people.
+std::string describe(const std::vector<Overlap>& overlaps) {
+  if (overlaps.empty()) return "nothing is covered twice but wires cross inside";
+  constexpr std::size_t kMaxTold = 3;
+  std::string text = fmt::format("{} part{} covered twice:", overlaps.size(),
+                                 overlaps.size() == 1 ? " is" : "s are");
+  for (std::size_t i = 0; i < std::min(kMaxTold, overlaps.size()); ++i) {
+    const Overlap& o = overlaps[i];
+    text += fmt::format("{} {:.2g} cm2 at ({:.0f}, {:.0f}) mm", i > 0 ? "," : "", o.area / 100,
+                        o.middle.x(), o.middle.y());
+  }
+  return text + (overlaps.size() > kMaxTold ? " and others" : "");
+}
+
 }  // namespace
 
-Error infeasible(const Piece& piece, const Problem& problem, const Plane& q,
+Error infeasible(const Piece& piece, const Problem& problem, const NewtonState& state,
                  const WireLengths& lengths) {
-  const Eigen::VectorXd residual = lengths.residual(q);
+  const Eigen::VectorXd residual = lengths.residual(state.q, state.ratios);
   std::vector<Element> where = worstWires(piece, problem, residual);
   const std::vector<std::string> braced = overBracedCurves(piece, problem);
   const std::string left = fmt::format("{:.2g} % is left", 100 * lengths.worst(residual));
@@ -110,8 +124,8 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
   if (flat.check.crossings > 0) {
     Finding finding{"crossings",
                     fmt::format("{} pairs of wire edges cross in the plane: the piece overlaps "
-                                "itself and has to be cut into two",
-                                flat.check.crossings),
+                                "itself and has to be cut into two; {}",
+                                flat.check.crossings, describe(flat.overlaps)),
                     {}};
     for (const auto& [a, b] : solution.crossings) {
       for (const std::uint32_t i : {a, b}) {
@@ -119,6 +133,14 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
         if (finding.where.size() < kMaxNamed &&
             std::find(finding.where.begin(), finding.where.end(), element) == finding.where.end()) {
           finding.where.push_back(std::move(element));
+        }
+      }
+    }
+    // Of each part that is covered twice a face of either layer, the largest part first.
+    for (const Overlap& overlap : flat.overlaps) {
+      for (const std::vector<FaceId>& layer : overlap.layers) {
+        if (finding.where.size() < kMaxNamed) {
+          finding.where.push_back(Element::face(layer[layer.size() / 2]));
         }
       }
     }

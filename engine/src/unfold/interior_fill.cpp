@@ -44,11 +44,11 @@ class Springs : public EnergyTerm {
 }  // namespace
 
 InteriorFill::InteriorFill(const Problem& problem, const BlockPattern& pattern,
-                           SparseFactor& factor, double areaWeight)
+                           SparseFactor& factor, const UnfoldOptions& options)
     : problem_(&problem),
       pattern_(&pattern),
       factor_(&factor),
-      strain_(problem, pattern, areaWeight) {
+      strain_(makeStrain(problem, pattern, options)) {
   withoutWires_.vertexCount = problem.vertexCount;
   withoutWires_.meanWireEdge = problem.meanWireEdge;
 }
@@ -57,7 +57,8 @@ Result<void> InteriorFill::pullTo(Plane& q, const std::vector<std::uint32_t>& ve
                                   const Plane& places, int round, const Progress* progress) {
   Springs springs(vertices, places, kStiffness[static_cast<std::size_t>(round)]);
   WireLengths none(withoutWires_, *pattern_);
-  ConstrainedNewton newton({&strain_, &springs}, none, *pattern_, *factor_, {}, problem_->area);
+  ConstrainedNewton newton({strain_.get(), &springs}, none, *pattern_, *factor_, {},
+                           problem_->area);
   NewtonState state;
   state.q = q;
   state.lambda = Eigen::VectorXd(0);

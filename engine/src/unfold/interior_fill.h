@@ -4,7 +4,7 @@
 #include "toile/core/progress.h"
 #include "toile/core/result.h"
 #include "unfold/sparse_factor.h"
-#include "unfold/strain_energy.h"
+#include "unfold/triangle_energy.h"
 
 namespace toile::unfolding {
 
@@ -16,21 +16,21 @@ class InteriorFill {
   static constexpr int kRounds = 5;
 
   InteriorFill(const Problem& problem, const BlockPattern& pattern, SparseFactor& factor,
-               double areaWeight);
+               const UnfoldOptions& options);
   /// @param q a plane without folds; moved.
   /// @param places of `vertices`, two numbers each.
   [[nodiscard]] Result<void> pullTo(Plane& q, const std::vector<std::uint32_t>& vertices,
                                     const Plane& places, int round, const Progress* progress);
   /// Strain energy per area; infinite where a triangle is flipped.
   [[nodiscard]] double meanEnergy(const Plane& q) const {
-    return strain_.energy(q) / problem_->area;
+    return strain_->energy(q) / problem_->area;
   }
 
  private:
   const Problem* problem_;
   const BlockPattern* pattern_;
   SparseFactor* factor_;
-  StrainEnergy strain_;
+  std::unique_ptr<TriangleEnergy> strain_;
   Problem withoutWires_;
 };
 

@@ -25,8 +25,10 @@ constexpr NewtonLimits kPreview{.maxSteps = 1};
 
 /// The compression at which a bar of the wires' stiffness waves in the cloth beside it
 /// (docs/unfolding.md).
-double bucklingLoad(double areaWeight, double waveLength) {
-  const double h = 2 * (areaWeight + 1) / (areaWeight + 2);
+double bucklingLoad(const UnfoldOptions& options, double waveLength) {
+  const double kappa = options.areaWeight;
+  double h = 2 * (kappa + 1) / (kappa + 2);
+  if (options.cloth) h *= std::sqrt(options.cloth->weights.along * options.cloth->weights.across);
   return 6 * std::cbrt(h * h) * waveLength;
 }
 
@@ -76,7 +78,7 @@ LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options,
       pattern_(couplingsOf(
           problem, symmetry != nullptr ? tiesOf(*symmetry, problem.vertexCount) : MirrorTies{})),
       factor_(pattern_),
-      strain_(problem, pattern_, options.areaWeight),
+      strain_(makeStrain(problem, pattern_, options)),
       lengths_(problem, pattern_) {}
 
 Result<void> LeastStrain::start(const Piece& piece) {
@@ -87,11 +89,13 @@ Result<void> LeastStrain::start(const Piece& piece) {
                         : unfoldedStart(*problem_, positions, hold, pattern_, factor_);
   if (!q) return q.error();
   bending_.emplace(*problem_, pattern_, cornerAngles(*problem_, *q));
-  newton_.emplace(std::vector<EnergyTerm*>{&strain_, &*bending_}, lengths_, pattern_, factor_,
+  newton_.emplace(std::vector<EnergyTerm*>{strain_.get(), &*bending_}, lengths_, pattern_, factor_,
                   std::vector{hold}, problem_->area);
   solution_ = {};
   solution_.state.q = *std::move(q);
   solution_.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.count()));
+  solution_.state.ratios =
+      Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.elasticCount()));
   solution_.wireStiffness = options_.wireStiffness;
   return {};
 }
@@ -99,7 +103,7 @@ Result<void> LeastStrain::start(const Piece& piece) {
 double LeastStrain::stiffen() {
   const double waveLength = solution_.wireStiffness * std::sqrt(problem_->area);
   bending_->setStiffness(waveLength * waveLength * waveLength);
-  return bucklingLoad(options_.areaWeight, waveLength);
+  return bucklingLoad(options_, waveLength);
 }
 
 /// Finds the plane; raises the stiffness of the wires while they would wave or cross.
@@ -116,11 +120,11 @@ Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
     if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
     solution.finished = end == NewtonEnd::Converged;
     solution.stable = solution.finished && newton_->lastStepWasConvex();
-    const bool failed =
-        end == NewtonEnd::Stalled ||
-        lengths_.worst(lengths_.residual(solution.state.q)) > kNearEnoughToProject ||
-        newton_->project(solution.state) > kExact;
-    if (failed && !crossed) return infeasible(piece, *problem_, solution.state.q, lengths_);
+    const bool failed = end == NewtonEnd::Stalled ||
+                        lengths_.worst(lengths_.residual(solution.state.q, solution.state.ratios)) >
+                            kNearEnoughToProject ||
+                        newton_->project(solution.state) > kExact;
+    if (failed && !crossed) return infeasible(piece, *problem_, solution.state, lengths_);
     solution.crossings = findCrossings(*problem_, solution.state.q);
     if (crossed && (failed || (!solution.crossings.empty() && partings == kMaxPartings))) {
       crossed->state.steps = solution.state.steps;
@@ -140,8 +144,9 @@ Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
       break;
     }
   }
-  solution.meanEnergy = strain_.energy(solution.state.q) / problem_->area;
+  solution.meanEnergy = strain_->energy(solution.state.q) / problem_->area;
   if (!solution.stable) solution.stable = newton_->isStableAt(solution.state);
+  if (lengths_.elasticCount() > 0) solution.elastic = newton_->elasticModelAt(solution.state);
   return solution;
 }
 

@@ -6,7 +6,7 @@
 #include "toile/unfold/symmetrise.h"
 #include "unfold/solution.h"
 #include "unfold/sparse_factor.h"
-#include "unfold/strain_energy.h"
+#include "unfold/triangle_energy.h"
 #include "unfold/wire_bending.h"
 
 namespace toile::unfolding {
@@ -47,7 +47,7 @@ class LeastStrain {
   const PieceSymmetry* symmetry_;
   BlockPattern pattern_;
   SparseFactor factor_;
-  StrainEnergy strain_;
+  std::unique_ptr<TriangleEnergy> strain_;
   WireLengths lengths_;
   std::optional<WireBending> bending_;
   std::optional<ConstrainedNewton> newton_;

@@ -270,6 +270,14 @@ class PatchBuilder {
   Piece piece_;
 };
 
+/// What the targets of a curve's edges are to be multiplied by.
+double elasticFactor(const FlatPiece& flat, const std::string& curve) {
+  for (const ElasticLine& line : flat.elastic.lines) {
+    if (line.curve == curve) return 1 + line.ratio;
+  }
+  return 1;
+}
+
 /// Units, then `v` of the surface and `vt` of the plane.
 std::string objVertices(const Mesh& mesh, const FlatPiece& flat) {
   std::string out = "# toile-units: mm\n";
@@ -303,11 +311,13 @@ std::string writePatchObj(const Mesh& mesh, const std::vector<PolygonSoup::Chain
     fmt::format_to(append, "g {}\nl", group);
     for (const std::uint32_t vertex : v) fmt::format_to(append, " {}", vertex + 1);
     out += '\n';
+    const Result<NamedChain> line = nameOf(chains[c], c);
+    const double factor = line ? elasticFactor(flat, line->curve) : 1;
     for (std::size_t i = 0; i + 1 < v.size(); ++i) {
-      const auto target = targets.find(fmt::format("{} {}", chains[c].group, i));
-      const EdgeId edge = mesh.findEdge(VertexId(v[i]), VertexId(v[i + 1]));
-      if (target == targets.end() || target->second == mesh.length(edge)) continue;
-      fmt::format_to(append, "# target {} {} {}\n", group, i, target->second);
+      const auto given = targets.find(fmt::format("{} {}", chains[c].group, i));
+      const double length = mesh.length(mesh.findEdge(VertexId(v[i]), VertexId(v[i + 1])));
+      const double target = (given != targets.end() ? given->second : length) * factor;
+      if (target != length) fmt::format_to(append, "# target {} {} {}\n", group, i, target);
     }
   }
   return out;
@@ -332,10 +342,12 @@ std::string writePatchObj(const SymmetricPiece& symmetric, const FlatPiece& flat
     fmt::format_to(append, "g {}\nl", group);
     for (const VertexId v : wire.vertices) fmt::format_to(append, " {}", v.index() + 1);
     out += '\n';
+    const double factor = elasticFactor(flat, wire.curve);
     for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
       const EdgeId edge = mesh.findEdge(wire.vertices[i], wire.vertices[i + 1]);
-      if (wire.targetLength[i] == mesh.length(edge)) continue;
-      fmt::format_to(append, "# target {} {} {}\n", group, i, wire.targetLength[i]);
+      const double target = wire.targetLength[i] * factor;
+      if (target != mesh.length(edge))
+        fmt::format_to(append, "# target {} {} {}\n", group, i, target);
     }
   }
   return out;

@@ -2,29 +2,40 @@
 #include <cmath>
 
 #include "unfold/check.h"
-#include "unfold/strain_energy.h"
+#include "unfold/triangle_energy.h"
 
 namespace toile::unfolding {
 namespace {
 
-/// Below this mean slope a piece is level, and its up is the next of z, y, x.
+/// Below this mean slope a piece is level, and its up is the next of the grain, z, y, x.
 constexpr double kLevel = 1e-2;
 
-/// Mean of a direction of the model, laid into each face and carried to the plane.
-Eigen::Vector2d meanDirection(const Problem& problem, const std::vector<Eigen::Vector3d>& positions,
-                              const Plane& q, const Eigen::Vector3d& direction) {
+/// Mean of a direction in each face, carried to the plane.
+Eigen::Vector2d meanDirection(const Problem& problem, const Plane& q,
+                              const std::vector<Eigen::Vector2d>& inFace) {
   Eigen::Vector2d sum = Eigen::Vector2d::Zero();
-  for (const RestTriangle& t : problem.triangles) {
-    // grad(direction . x) in the face is the direction's part in the face, in the face's frame.
-    Eigen::Vector2d inFace = Eigen::Vector2d::Zero();
-    for (std::size_t k = 0; k < 3; ++k) {
-      inFace += direction.dot(positions[t.vertex[k]] - positions[t.vertex[0]]) * t.hatGradient[k];
-    }
-    const PlaneMap f = mapOf(t, q);
-    sum += t.area * Eigen::Vector2d(f.xx * inFace.x() + f.xy * inFace.y(),
-                                    f.yx * inFace.x() + f.yy * inFace.y());
+  for (std::size_t i = 0; i < problem.triangles.size(); ++i) {
+    const PlaneMap f = mapOf(problem.triangles[i], q);
+    const Eigen::Vector2d& d = inFace[i];
+    sum += problem.triangles[i].area *
+           Eigen::Vector2d(f.xx * d.x() + f.xy * d.y(), f.yx * d.x() + f.yy * d.y());
   }
   return sum / problem.area;
+}
+
+/// The parts in the faces of a direction of the model: grad(direction . x), in each face's frame.
+std::vector<Eigen::Vector2d> inFaces(const Problem& problem,
+                                     const std::vector<Eigen::Vector3d>& positions,
+                                     const Eigen::Vector3d& direction) {
+  std::vector<Eigen::Vector2d> parts;
+  parts.reserve(problem.triangles.size());
+  for (const RestTriangle& t : problem.triangles) {
+    Eigen::Vector2d& part = parts.emplace_back(Eigen::Vector2d::Zero());
+    for (std::size_t k = 0; k < 3; ++k) {
+      part += direction.dot(positions[t.vertex[k]] - positions[t.vertex[0]]) * t.hatGradient[k];
+    }
+  }
+  return parts;
 }
 
 }  // namespace
@@ -33,9 +44,10 @@ void place(const Problem& problem, const std::vector<Eigen::Vector3d>& positions
            Plane& q) {
   // A symmetric plane has its axis on x = 0, to the last bit: it is turned by quarters alone.
   bool axisIsUpright = true;
-  for (const Eigen::Vector3d& axis :
-       {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 0, 0)}) {
-    const Eigen::Vector2d up = meanDirection(problem, positions, q, axis);
+  for (int choice = problem.grain.empty() ? 2 : 3; choice >= 0; --choice) {
+    const Eigen::Vector2d up = meanDirection(
+        problem, q,
+        choice == 3 ? problem.grain : inFaces(problem, positions, Eigen::Vector3d::Unit(choice)));
     if (up.norm() < kLevel) continue;
     Eigen::Vector2d u = up.normalized();
     if (isSymmetric) {

@@ -22,6 +22,8 @@ constexpr double kSmoothTurn = 0.5;
 /// The span of a corner is at least this share of the mean wire edge.
 constexpr double kMinSpan = 0.05;
 constexpr std::size_t kMaxNamed = 24;
+/// A line that may shrink to a tenth says nothing any more.
+constexpr double kMaxElasticRange = 0.9;
 
 /// A face laid into a plane of its own: corner 0 at the origin, corner 1 along x, corner 2 above.
 struct FlatFace {
@@ -137,6 +139,17 @@ Result<void> addLoops(const Mesh& mesh, Problem& problem) {
   return {};
 }
 
+/// The elastic line that a wire is a part of; all parts of a curve are one.
+std::uint32_t elasticOf(const Wire& wire, Problem& problem) {
+  if (wire.elasticRange == 0) return WireEdge::kNoWire;
+  std::vector<Elastic>& all = problem.elastics;
+  const auto known =
+      std::find_if(all.begin(), all.end(), [&](const Elastic& e) { return e.curve == wire.curve; });
+  if (known != all.end()) return static_cast<std::uint32_t>(known - all.begin());
+  all.push_back({wire.curve, wire.elasticRange});
+  return static_cast<std::uint32_t>(all.size() - 1);
+}
+
 /// The wire edge index of every mesh edge, kNoWire where there is none.
 Result<EdgeData<std::uint32_t>> addWireEdges(const Piece& piece, Problem& problem) {
   const Mesh& mesh = *piece.mesh;
@@ -149,6 +162,13 @@ Result<EdgeData<std::uint32_t>> addWireEdges(const Piece& piece, Problem& proble
                                wire.vertices.size(), wire.targetLength.size()),
                    {Element::curve(wire.curve)}};
     }
+    if (!(wire.elasticRange >= 0 && wire.elasticRange <= kMaxElasticRange)) {
+      return Error{ErrorCode::InvalidArgument,
+                   fmt::format("wire \"{}\" has the elastic range {}; it must lie in 0..{}",
+                               wire.curve, wire.elasticRange, kMaxElasticRange),
+                   {Element::curve(wire.curve)}};
+    }
+    const std::uint32_t elastic = elasticOf(wire, problem);
     for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
       const EdgeId edge = mesh.findEdge(wire.vertices[i], wire.vertices[i + 1]);
       if (!edge.isValid()) {
@@ -169,7 +189,7 @@ Result<EdgeData<std::uint32_t>> addWireEdges(const Piece& piece, Problem& proble
       wireOfEdge[edge] = static_cast<std::uint32_t>(problem.wireEdges.size());
       problem.wireEdges.push_back({wire.vertices[i].index(), wire.vertices[i + 1].index(), target,
                                    static_cast<std::uint32_t>(w), static_cast<std::uint32_t>(i),
-                                   !mesh.isBorder(edge)});
+                                   !mesh.isBorder(edge), elastic});
     }
   }
   // A border that no wire names keeps its length on the surface.
@@ -247,6 +267,15 @@ Result<Problem> makeProblem(const Piece& piece) {
   if (!wireOfEdge) return wireOfEdge.error();
   addCorners(piece, *wireOfEdge, problem);
   return problem;
+}
+
+void fixElastics(const Eigen::VectorXd& ratios, Problem& problem) {
+  for (WireEdge& edge : problem.wireEdges) {
+    if (edge.elastic == WireEdge::kNoWire) continue;
+    edge.target *= 1 + ratios[edge.elastic];
+    edge.elastic = WireEdge::kNoWire;
+  }
+  problem.elastics.clear();
 }
 
 }  // namespace toile::unfolding

@@ -4,6 +4,7 @@
 #include <Eigen/Core>
 #include <array>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include "toile/core/result.h"
@@ -28,10 +29,11 @@ struct RestTriangle {
 /// An edge whose flat length is given.
 struct WireEdge {
   std::uint32_t a = 0, b = 0;
-  double target = 0;             ///< mm
-  std::uint32_t wire = kNoWire;  ///< index in Piece::wires
-  std::uint32_t edgeOfWire = 0;  ///< index in that wire
-  bool inner = false;            ///< cloth on both sides
+  double target = 0;                ///< mm
+  std::uint32_t wire = kNoWire;     ///< index in Piece::wires
+  std::uint32_t edgeOfWire = 0;     ///< index in that wire
+  bool inner = false;               ///< cloth on both sides
+  std::uint32_t elastic = kNoWire;  ///< index in Problem::elastics
   static constexpr std::uint32_t kNoWire = 0xffffffffU;
 };
 
@@ -45,11 +47,20 @@ struct Corner {
   std::uint32_t sectorBegin = 0, sectorEnd = 0;  ///< its face corners, in Problem::sectorCorners
 };
 
+/// A line whose edges all get 1 + ratio times their targets, |ratio| <= range.
+struct Elastic {
+  std::string curve;
+  double range = 0;
+};
+
 /// A piece as numbers: what every objective, start and check works on.
 struct Problem {
   std::size_t vertexCount = 0;
   std::vector<RestTriangle> triangles;
+  /// Unit direction of the warp in each triangle's plane; empty for cloth alike in all directions.
+  std::vector<Eigen::Vector2d> grain;
   std::vector<WireEdge> wireEdges;
+  std::vector<Elastic> elastics;
   std::vector<Corner> corners;
   std::vector<std::uint32_t> sectorCorners;       ///< 3 * triangle + corner of the triangle
   std::vector<std::vector<std::uint32_t>> loops;  ///< boundary vertices, cloth on the left
@@ -61,5 +72,8 @@ struct Problem {
 /// @return NotADisk, DegenerateFace, InvalidArgument (a wire that does not run along the mesh, a
 ///   target that is not a positive number).
 Result<Problem> makeProblem(const Piece& piece);
+
+/// Gives the edges of elastic lines the targets that the ratios mean; nothing is elastic any more.
+void fixElastics(const Eigen::VectorXd& ratios, Problem& problem);
 
 }  // namespace toile::unfolding

@@ -22,6 +22,7 @@ struct Solution {
   bool stable = true;
   double wireBending = 0;  ///< J
   double meanEnergy = 0;   ///< per area, of the strain alone
+  ElasticModel elastic;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
 };
 
@@ -30,7 +31,7 @@ struct Solution {
                                                 const Solution& solution, const FlatPiece& flat);
 
 /// LengthsInfeasible, with the wires of the greatest length errors: curves first, then edges.
-[[nodiscard]] Error infeasible(const Piece& piece, const Problem& problem, const Plane& q,
+[[nodiscard]] Error infeasible(const Piece& piece, const Problem& problem, const NewtonState& state,
                                const WireLengths& lengths);
 
 }  // namespace toile::unfolding

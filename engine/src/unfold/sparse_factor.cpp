@@ -71,38 +71,54 @@ SparseFactor::SparseFactor(const BlockPattern& pattern) : elimination_(pattern) 
     std::fill(supernodeOf.begin() + nodes[s].first, supernodeOf.begin() + nodes[s].end,
               static_cast<std::uint32_t>(s));
   }
+  // visit(supernode, number k of the matrix, row and column in the supernode's panel), block by
+  // block: the rows below are searched once for the four numbers of a block.
   const auto forEachNumber = [&](const auto& visit) {
-    for (std::size_t column = 0; column < 2 * pattern.nodeCount(); ++column) {
-      for (int k = pattern.columnStart()[column]; k < pattern.columnStart()[column + 1]; ++k) {
-        const auto row = static_cast<std::size_t>(pattern.row()[static_cast<std::size_t>(k)]);
-        std::size_t a =
-            kPerNode * static_cast<std::size_t>(elimination_.placeOfNode[row / 2]) + row % 2;
-        std::size_t b =
-            kPerNode * static_cast<std::size_t>(elimination_.placeOfNode[column / 2]) + column % 2;
-        if (a < b) std::swap(a, b);
-        visit(k, a, b);  // row a, column b, a >= b
+    for (std::size_t j = 0; j < pattern.nodeCount(); ++j) {
+      const int own = elimination_.placeOfNode[j];
+      const int begin = pattern.nodeStart()[j], end = pattern.nodeStart()[j + 1];
+      for (int entry = begin; entry < end; ++entry) {
+        const int other = elimination_.placeOfNode[static_cast<std::size_t>(
+            pattern.nodeRow()[static_cast<std::size_t>(entry)])];
+        const int first = std::min(own, other), later = std::max(own, other);
+        const std::uint32_t s = supernodeOf[static_cast<std::size_t>(first)];
+        const Supernode& node = nodes[s];
+        std::size_t row = 0;
+        if (later < node.end) {
+          row = kPerNode * static_cast<std::size_t>(later - node.first);
+        } else {
+          const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), later);
+          row = pivotsOf(node) + kPerNode * static_cast<std::size_t>(found - node.rows.begin());
+        }
+        const std::size_t column = kPerNode * static_cast<std::size_t>(first - node.first);
+        for (std::size_t side = 0; side < kPerNode; ++side) {
+          const int k = pattern.columnStart()[kPerNode * j + side] + 2 * (entry - begin);
+          for (std::size_t r = 0; r < kPerNode; ++r) {
+            const bool isTurned = own > other;  // the matrix' column is a row of the factor
+            visit(s, k + static_cast<int>(r), row + (isTurned ? side : r),
+                  column + (isTurned ? r : side));
+          }
+        }
       }
+      const std::uint32_t s = supernodeOf[static_cast<std::size_t>(own)];
+      const std::size_t at = kPerNode * static_cast<std::size_t>(own - nodes[s].first);
+      const int last = pattern.columnStart()[kPerNode * j + 2];
+      visit(s, pattern.columnStart()[kPerNode * j + 1] - 1, at, at);
+      visit(s, last - 2, at + 1, at);
+      visit(s, last - 1, at + 1, at + 1);
     }
   };
   moveStart_.assign(nodes.size() + 1, 0);
-  forEachNumber([&](int, std::size_t, std::size_t b) { ++moveStart_[supernodeOf[b / 2] + 1]; });
+  forEachNumber([&](std::uint32_t s, int, std::size_t, std::size_t) { ++moveStart_[s + 1]; });
   for (std::size_t s = 0; s < nodes.size(); ++s) moveStart_[s + 1] += moveStart_[s];
   moveFrom_.resize(pattern.row().size());
   moveTo_.resize(pattern.row().size());
   std::vector<std::size_t> fill(moveStart_.begin(), moveStart_.end() - 1);
-  forEachNumber([&](int k, std::size_t a, std::size_t b) {
-    const std::uint32_t s = supernodeOf[b / 2];
-    const Supernode& node = nodes[s];
-    const std::size_t first = kPerNode * static_cast<std::size_t>(node.first);
-    const int place = static_cast<int>(a / 2);
-    std::size_t row = a - first;
-    if (place >= node.end) {
-      const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), place);
-      row = pivotsOf(node) + kPerNode * static_cast<std::size_t>(found - node.rows.begin()) + a % 2;
-    }
+  forEachNumber([&](std::uint32_t s, int k, std::size_t row, std::size_t column) {
     const std::size_t at = fill[s]++;
     moveFrom_[at] = k;
-    moveTo_[at] = static_cast<std::uint32_t>((b - first) * (pivotsOf(node) + belowOf(node)) + row);
+    moveTo_[at] =
+        static_cast<std::uint32_t>(column * (pivotsOf(nodes[s]) + belowOf(nodes[s])) + row);
   });
   x_.resize(kPerNode * pattern.nodeCount());
 }
@@ -120,7 +136,9 @@ bool SparseFactor::factor(const BlockMatrix& matrix) {
       panel[moveTo_[m]] = matrix.values()[static_cast<std::size_t>(moveFrom_[m])];
     }
     double* front = front_.data();
-    std::fill_n(front, below * below, 0.0);
+    for (std::size_t c = 0; c < below; ++c) {  // the lower part is all that is used
+      std::fill_n(front + c * below + c, below - c, 0.0);
+    }
     while (!waiting_.empty() && nodes[waiting_.back()].parent == static_cast<int>(s)) {
       const Supernode& child = nodes[waiting_.back()];
       top -= belowOf(child) * belowOf(child);
@@ -130,7 +148,9 @@ bool SparseFactor::factor(const BlockMatrix& matrix) {
     if (!factorPanel(panel, rows, pivots, packed_)) return false;
     if (below == 0) continue;
     subtractOuterProduct(panel, rows, pivots, front, packed_);
-    std::copy_n(front, below * below, top);
+    for (std::size_t c = 0; c < below; ++c) {
+      std::copy_n(front + c * below + c, below - c, top + c * below + c);
+    }
     top += below * below;
     waiting_.push_back(s);
   }

@@ -3,7 +3,7 @@
 
 #include <cmath>
 
-#include "unfold/strain_energy.h"
+#include "unfold/triangle_energy.h"
 
 namespace toile::unfolding {
 

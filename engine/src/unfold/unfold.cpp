@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 #include <new>
+#include <numbers>
 
 #include "toile/unfold/symmetrise.h"
 #include "unfold/check.h"
+#include "unfold/cloth_energy.h"
 #include "unfold/least_strain.h"
+#include "unfold/overlap.h"
 #include "unfold/symmetry.h"
 #include "unfold/wire_warping.h"
 
@@ -30,6 +33,14 @@ Result<void> checkOptions(const UnfoldOptions& options) {
   if (!(options.wireStiffness >= 0 && options.wireStiffness <= 10)) {
     return refuse("the wire stiffness", options.wireStiffness, "0..10");
   }
+  if (options.cloth) {
+    const ClothWeights& weights = options.cloth->weights;
+    for (const double weight : {weights.along, weights.across, weights.shear}) {
+      if (!(weight >= 1e-3 && weight <= 1e3)) {
+        return refuse("a weight of the cloth", weight, "0.001..1000");
+      }
+    }
+  }
   if (options.maxSteps < 1) return refuse("the number of steps", options.maxSteps, "1 and more");
   return {};
 }
@@ -41,7 +52,7 @@ Error outOfMemory() {
 }
 
 FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOptions& options,
-                    bool isSymmetric, Solution solution) {
+                    bool isSymmetric, ElasticAnswer elastic, Solution solution) {
   Plane& q = solution.state.q;
   place(problem, piece.mesh->positions(), isSymmetric, q);
   solution.crossings = findCrossings(problem, q);
@@ -53,13 +64,40 @@ FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOpti
   flat.steps = solution.state.steps;
   flat.wireStiffness = solution.wireStiffness;
   flat.wireBending = solution.wireBending;
+  flat.elastic = std::move(elastic);
   for (std::size_t i = 0; i < problem.triangles.size(); ++i) {
     const double error = std::abs(flat.distortion[FaceId(i)].areaRatio() - 1);
     flat.meanAreaError += error * problem.triangles[i].area / problem.area;
     flat.maxAreaError = std::max(flat.maxAreaError, error);
   }
+  if (flat.check.crossings > 0) flat.overlaps = findOverlaps(piece, problem, q);
   flat.findings = makeFindings(piece, problem, options, solution, flat);
   return flat;
+}
+
+/// What was found of the elastic lines; their targets in the problem become what was found.
+ElasticAnswer takeElastics(const Solution& solution, Problem& problem) {
+  ElasticAnswer answer;
+  for (std::size_t i = 0; i < problem.elastics.size(); ++i) {
+    answer.lines.push_back({problem.elastics[i].curve, problem.elastics[i].range,
+                            solution.state.ratios[static_cast<Eigen::Index>(i)]});
+  }
+  answer.gradient = solution.elastic.gradient;
+  answer.stiffness = solution.elastic.stiffness;
+  fixElastics(solution.state.ratios, problem);
+  return answer;
+}
+
+void layGrain(const Piece& piece, const UnfoldOptions& options, Problem& problem) {
+  if (!options.cloth) return;
+  problem.grain = grainOf(problem, piece.mesh->positions(), options.cloth->grain);
+}
+
+/// Cloth whose threads run slantwise is not its own mirror image.
+bool hasSlantedGrain(const UnfoldOptions& options) {
+  if (!options.cloth) return false;
+  const double quarters = options.cloth->grain.turn.radians() / (0.5 * std::numbers::pi);
+  return std::abs(quarters - std::round(quarters)) > 1e-9;
 }
 
 bool sameConnectivity(const Problem& a, const Problem& b) {
@@ -81,18 +119,28 @@ Result<FlatPiece> unfoldOne(const Piece& piece, const PieceSymmetry* symmetry,
   if (Result<void> valid = checkOptions(options); !valid) return valid.error();
   Result<Problem> problem = makeProblem(piece);
   if (!problem) return problem.error();
+  layGrain(piece, options, *problem);
   std::optional<PieceSymmetry> found;
-  if (symmetry == nullptr && options.keepSymmetry &&
+  if (hasSlantedGrain(options)) symmetry = nullptr;
+  if (!hasSlantedGrain(options) && symmetry == nullptr && options.keepSymmetry &&
       options.objective == UnfoldObjective::LeastStrain) {
     found = findExactSymmetry(piece, *problem);
     if (found) symmetry = &*found;
   }
-  Result<Solution> solution = options.objective == UnfoldObjective::WireWarping
-                                  ? warpWires(piece, *problem, options, progress)
-                                  : LeastStrain(*problem, options, symmetry).solve(piece, progress);
-  if (!solution) return solution.error();
-  const bool isSymmetric = symmetry != nullptr && options.objective == UnfoldObjective::LeastStrain;
-  return flatPiece(piece, *problem, options, isSymmetric, *std::move(solution));
+  const bool isWarped = options.objective == UnfoldObjective::WireWarping;
+  ElasticAnswer elastic;
+  std::optional<Result<Solution>> solution;
+  // How the wires turn says too little of how long they want to be: the cloth's strain says it.
+  if (!isWarped || !problem->elastics.empty()) {
+    solution = LeastStrain(*problem, options, symmetry).solve(piece, progress);
+    if (!*solution) return solution->error();
+    elastic = takeElastics(**solution, *problem);
+  }
+  if (isWarped) solution = warpWires(piece, *problem, options, progress);
+  if (!*solution) return solution->error();
+  const bool isSymmetric = symmetry != nullptr && !isWarped;
+  return flatPiece(piece, *problem, options, isSymmetric, std::move(elastic),
+                   **std::move(solution));
 } catch (const std::bad_alloc&) {
   return outOfMemory();
 }
@@ -126,6 +174,7 @@ Result<FlatPiece> UnfoldPreview::update(const Piece& piece, Progress* progress) 
   if (!problem) return problem.error();
   const bool isWarm = state.solver && sameConnectivity(*problem, state.problem);
   state.problem = *std::move(problem);
+  layGrain(piece, state.options, state.problem);
   for (const bool warm : {isWarm, false}) {
     if (!warm) state.solver.emplace(state.problem, state.options);
     Result<Solution> solution = state.solver->preview(piece, progress);
@@ -135,7 +184,9 @@ Result<FlatPiece> UnfoldPreview::update(const Piece& piece, Progress* progress) 
       state.solver.reset();
       return solution.error();
     }
-    return flatPiece(piece, state.problem, state.options, false, *std::move(solution));
+    ElasticAnswer elastic = takeElastics(*solution, state.problem);
+    return flatPiece(piece, state.problem, state.options, false, std::move(elastic),
+                     *std::move(solution));
   }
   return Error{ErrorCode::NotConverged, "no preview", {}};
 } catch (const std::bad_alloc&) {

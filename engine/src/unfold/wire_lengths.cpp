@@ -12,13 +12,25 @@ WireLengths::WireLengths(const Problem& problem, const BlockPattern& pattern)
   for (const WireEdge& edge : problem.wireEdges) places_.push_back(pattern.find(edge.a, edge.b));
 }
 
-Eigen::VectorXd WireLengths::residual(const Plane& q) const {
+Eigen::VectorXd WireLengths::residual(const Plane& q, const Eigen::VectorXd& ratios) const {
   Eigen::VectorXd c(static_cast<Eigen::Index>(count()));
   Eigen::Index i = 0;
   for (const WireEdge& edge : problem_->wireEdges) {
-    c[i++] = (at(q, edge.a) - at(q, edge.b)).norm() - edge.target;
+    const double target =
+        edge.elastic == WireEdge::kNoWire ? edge.target : edge.target * (1 + ratios[edge.elastic]);
+    c[i++] = (at(q, edge.a) - at(q, edge.b)).norm() - target;
   }
   return c;
+}
+
+Eigen::VectorXd WireLengths::targetsOf(std::size_t elastic) const {
+  Eigen::VectorXd targets = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count()));
+  Eigen::Index i = 0;
+  for (const WireEdge& edge : problem_->wireEdges) {
+    if (edge.elastic == elastic) targets[i] = edge.target;
+    ++i;
+  }
+  return targets;
 }
 
 double WireLengths::worst(const Eigen::VectorXd& residual) const {

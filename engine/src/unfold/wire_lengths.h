@@ -6,13 +6,21 @@
 
 namespace toile::unfolding {
 
-/// The constraints c_e = |q_a - q_b| - target = 0 on all wire edges, with Jacobian J.
+/// The constraints c_e = |q_a - q_b| - (1 + ratio) target = 0 on all wire edges, with Jacobian J by
+/// q; the ratio is that of the edge's elastic line, 0 for all others.
 class WireLengths {
  public:
   WireLengths(const Problem& problem, const BlockPattern& pattern);
 
   [[nodiscard]] std::size_t count() const { return problem_->wireEdges.size(); }
-  [[nodiscard]] Eigen::VectorXd residual(const Plane& q) const;
+  [[nodiscard]] std::size_t elasticCount() const { return problem_->elastics.size(); }
+  [[nodiscard]] double range(std::size_t elastic) const {
+    return problem_->elastics[elastic].range;
+  }
+  /// @param ratios one per elastic line.
+  [[nodiscard]] Eigen::VectorXd residual(const Plane& q, const Eigen::VectorXd& ratios) const;
+  /// The targets of an elastic line, 0 at all other edges: by how much c falls with its ratio.
+  [[nodiscard]] Eigen::VectorXd targetsOf(std::size_t elastic) const;
   /// Greatest |c_e| as a share of its target (of a thousandth of the mean edge for tiny ones).
   [[nodiscard]] double worst(const Eigen::VectorXd& residual) const;
   /// Greatest |c_e| / max(target, 1 mm).

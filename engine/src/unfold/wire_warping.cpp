@@ -133,8 +133,9 @@ class Warper {
           progress);
       if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
       warped.finished = end == NewtonEnd::Converged;
-      warped.exact = lengths_.worst(lengths_.residual(warped.state.q)) < 1e-3 &&
-                     newton.project(warped.state) <= kExact;
+      warped.exact =
+          lengths_.worst(lengths_.residual(warped.state.q, warped.state.ratios)) < 1e-3 &&
+          newton.project(warped.state) <= kExact;
       warped.stable = warped.exact && newton.isStableAt(warped.state);
       if (!warped.finished || warped.stable || push == kMaxPushes) break;
       // A saddle, as symmetric data gives it: there is a lower place beside it.
@@ -236,19 +237,20 @@ Result<Solution> warpWires(const Piece& piece, const Problem& problem, const Unf
   }
   if (!best || !best->exact) {
     WireLengths lengths(problem, pattern);
-    Plane q = starts.front();
+    NewtonState state;
+    state.q = starts.front();
     if (best) {
       for (std::size_t i = 0; i < wires.vertexOfNode.size(); ++i) {
-        q.segment<2>(2 * Eigen::Index{wires.vertexOfNode[i]}) =
+        state.q.segment<2>(2 * Eigen::Index{wires.vertexOfNode[i]}) =
             at(best->state.q, static_cast<std::uint32_t>(i));
       }
     }
-    return infeasible(piece, problem, q, lengths);
+    return infeasible(piece, problem, state, lengths);
   }
 
   Solution solution;
   solution.state.q = starts.front();
-  InteriorFill fill(problem, pattern, factor, options.areaWeight);
+  InteriorFill fill(problem, pattern, factor, options);
   for (int round = 0; round < InteriorFill::kRounds; ++round) {
     const Plane wanted = fitted(wires, best->state.q, solution.state.q);
     const bool last = round + 1 == InteriorFill::kRounds;

@@ -219,6 +219,10 @@ class RandomDesign {
     if (!design.fabrics.empty() && chance()) piece.fabric = design.fabrics.front().id;
     if (chance()) piece.ease = ease();
     if (chance()) piece.develop = developSetting();
+    if (chance()) piece.grain = {Grain::Axis::X, Angle::rad(fraction()), unknown()};
+    if (chance() && !design.pieces.empty()) {
+      piece.twin = {design.pieces.front().id, TwinMode::Mean, unknown()};
+    }
     for (const StylingCurve& curve : design.curves) piece.boundary.push_back(curve.id);
     piece.unknown = unknown();
     return piece;
@@ -231,6 +235,9 @@ class RandomDesign {
     if (chance()) fabric.stretchAlong = Ratio::of(fraction());
     if (chance()) fabric.stretchAcross = Ratio::of(fraction());
     if (chance()) fabric.shear = Ratio::of(fraction());
+    if (chance()) {
+      fabric.weights = {1 + fraction(), 2 + fraction(), 0.1 + fraction(), unknown()};
+    }
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
     if (chance()) fabric.allowance = Length::mm(std::abs(number()));

@@ -185,9 +185,9 @@ TEST(WireLengths, JacobianIsTheSlopeOfTheLengths) {
   lengths.linearise(f.q);
   const Fixture direction(test::irregularGrid(4, 3), 0, 1, 9);
   constexpr double kStep = 1e-5;
-  const Eigen::VectorXd slope =
-      (lengths.residual(f.q + kStep * direction.q) - lengths.residual(f.q - kStep * direction.q)) /
-      (2 * kStep);
+  const Eigen::VectorXd slope = (lengths.residual(f.q + kStep * direction.q, {}) -
+                                 lengths.residual(f.q - kStep * direction.q, {})) /
+                                (2 * kStep);
   EXPECT_LT((lengths.jacobianTimes(direction.q) - slope).cwiseAbs().maxCoeff(), 1e-8);
   Eigen::VectorXd transposed = Eigen::VectorXd::Zero(f.q.size());
   lengths.addTransposeTimes(slope, transposed);

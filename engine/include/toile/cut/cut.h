@@ -23,6 +23,9 @@ enum class WireKind { Seam, Opening, Dart, Feature, Elastic, Border };
   return kind != WireKind::Feature && kind != WireKind::Elastic;
 }
 
+/// Of elastic lines that do not say how elastic they are.
+inline constexpr double kUsualElasticRange = 0.05;
+
 /// One edge of the cut: a seam edge, feature edge or edge of the model's border. The one owner of
 /// its lengths; the sides of a seam refer to the same object.
 struct CutEdge {
@@ -59,6 +62,9 @@ struct Wire {
   std::vector<double>
       targetLength;  ///< mm, per edge, copied from the CutEdge: bitwise equal in mates
   std::vector<CutEdgeId> cutEdges;  ///< per edge; empty for a piece that was not cut from a model
+  /// How far the targets may still be changed, all of the curve's by one ratio: between 1 - range
+  /// and 1 + range times. 0 = they are to be kept.
+  double elasticRange = 0;
 };
 
 /// A region of the model bounded by seams.

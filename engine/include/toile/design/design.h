@@ -237,6 +237,28 @@ struct DevelopSetting {
   friend bool operator==(const DevelopSetting&, const DevelopSetting&) = default;
 };
 
+/// Which way the warp runs on a piece: the direction of an axis laid into the surface, turned
+/// counter-clockwise seen from outside.
+struct Grain {
+  enum class Axis { X, Y, Z };
+  Axis along = Axis::Z;
+  Angle turn;
+  UnknownKeys unknown{};
+  friend bool operator==(const Grain&, const Grain&) = default;
+};
+
+enum class TwinMode {
+  Identical,  ///< the mirror image of the other, to the last bit
+  Mean        ///< both from the mean of the two sides of the model
+};
+/// What makes a piece the mirror image of another; without it each is true to its own side.
+struct Twin {
+  std::string of;  ///< id of the other piece's record
+  TwinMode mode = TwinMode::Identical;
+  UnknownKeys unknown{};
+  friend bool operator==(const Twin&, const Twin&) = default;
+};
+
 /// Identity of a piece: the region in which the anchor lies.
 struct PieceRecord {
   std::string id;
@@ -247,6 +269,8 @@ struct PieceRecord {
   std::string fabric;        ///< id; empty = the first
   std::optional<Ease> ease;  ///< instead of the fabric's
   std::optional<DevelopSetting> develop;
+  std::optional<Grain> grain;  ///< upright otherwise
+  std::optional<Twin> twin;
   std::vector<std::string> boundary;  ///< ids of the curves around it, cyclic; empty = not noted
   UnknownKeys unknown;
   friend bool operator==(const PieceRecord&, const PieceRecord&) = default;
@@ -259,11 +283,19 @@ enum class Turns {
   Any      ///< neither, as on leather or foam
 };
 
+/// How much a fabric resists being strained, in shares of what cloth alike in all directions would.
+struct ClothWeights {
+  double along = 1, across = 1, shear = 1;  ///< 0.001..1000
+  UnknownKeys unknown{};
+  friend bool operator==(const ClothWeights&, const ClothWeights&) = default;
+};
+
 struct Fabric {
   std::string id;
   std::string name;
   std::string colour;                                       ///< "#rrggbb" or empty
   std::optional<Ratio> stretchAlong, stretchAcross, shear;  ///< limits
+  std::optional<ClothWeights> weights;                      ///< of woven or knitted cloth
   Length thickness;
   /// Where in the cloth lengths are counted: 0 = the side on the body, 1 = the outer one.
   Ratio thicknessOffset;

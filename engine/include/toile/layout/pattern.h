@@ -26,6 +26,11 @@ struct Pattern {
   std::vector<PatternPiece> pieces;            ///< of the flats that passed every check
   std::vector<std::uint32_t> pieceIndex;       ///< per pattern piece: index in cut.pieces
   Layout layout;
+  /// Per piece: the one whose mirror image it is made to be, with its mesh and numbering, corners 1
+  /// and 2 of each face exchanged. Empty = none.
+  std::vector<std::optional<std::uint32_t>> twinOf;
+  /// The elastic lines in the design's order; `cut` holds the targets that their ratios gave.
+  std::vector<ElasticLine> elastics;
   std::vector<Finding> findings;  ///< of all steps, in their order
 
   /// Every included piece was unfolded and passed its checks.

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <Eigen/Core>
+#include <array>
 #include <map>
 #include <memory>
 #include <optional>
@@ -25,6 +26,14 @@ enum class WireWeights {
   Length  ///< by 1 / length of wire; corners and junctions by 1 / mean length
 };
 
+/// Woven or knitted cloth: what it resists, up to which strains, and where its warp runs.
+struct Cloth {
+  ClothWeights weights;
+  /// Greatest strains it bears; beyond them it resists a hundred times as much. None = no limit.
+  std::optional<Ratio> stretchAlong, stretchAcross, shear;
+  Grain grain;
+};
+
 struct UnfoldOptions {
   UnfoldObjective objective = UnfoldObjective::LeastStrain;
   WireWeights weights = WireWeights::Length;  ///< of WireWarping
@@ -34,6 +43,8 @@ struct UnfoldOptions {
   /// crinkle.
   double wireStiffness = 0.05;  ///< 0..10
   int maxSteps = 100;           ///< of the solver
+  /// Cloth that is not alike in all directions; the piece is laid with its grain upright.
+  std::optional<Cloth> cloth{};
   /// A piece that is its own mirror image to rounding unfolds to one (least strain); symmetrise()
   /// is for pieces that are so nearly.
   bool keepSymmetry = true;
@@ -60,6 +71,29 @@ struct UnfoldCheck {
   }
 };
 
+/// By how much an elastic line was made longer or shorter.
+struct ElasticLine {
+  std::string curve;
+  double range = 0;  ///< what was allowed, either way
+  double ratio = 0;  ///< what was taken: lengths are 1 + ratio times the piece's targets
+};
+
+/// The elastic lines of a piece and what other ratios would cost it: near these ratios the strain
+/// energy changes by gradient . d + d . stiffness d / 2, in mm^2.
+struct ElasticAnswer {
+  std::vector<ElasticLine> lines;  ///< in the order of the piece's wires
+  Eigen::VectorXd gradient;
+  Eigen::MatrixXd stiffness;
+};
+
+/// A part of the plane that the piece covers twice.
+struct Overlap {
+  std::array<std::vector<FaceId>, 2>
+      layers;  ///< the faces there: on the piece, and so on the model
+  Eigen::Vector2d middle = Eigen::Vector2d::Zero();
+  double area = 0;  ///< mm^2, covered by both
+};
+
 /// The piece in the plane: right side up, y up, faces counter-clockwise, mm.
 struct FlatPiece {
   VertexData<Eigen::Vector2d> position;
@@ -72,6 +106,8 @@ struct FlatPiece {
   /// Sum of w (theta - alpha)^2 over the wire corners, WireWarping's J; without the constant of the
   /// tips of wires that end in the cloth. 0 with the other objective.
   double wireBending = 0;
+  ElasticAnswer elastic;          ///< of wires with an elastic range
+  std::vector<Overlap> overlaps;  ///< by falling area; none where no wires cross
   std::vector<Finding> findings;  ///< crossings, high strain, saddle point, ...
 };
 

@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "pipeline/symmetric_lines.h"
+
+#include <algorithm>
+
+#include "design/mirror.h"
+
+namespace toile {
+namespace {
+
+/// mm; on a crooked model the ends, placed by lengths, are only nearly images of each other. Lines
+/// whose ends are farther apart are other lines on the other side.
+constexpr double kSameEnd = 10;
+
+class LineMirror {
+ public:
+  LineMirror(const ReferenceModel& model, double keep)
+      : model_(model), keep_(keep), linker_(model.mesh) {}
+
+  void makeSymmetric(SurfacePath& path) {
+    const Result<SurfacePath> mirrored = detail::mirrored(model_, linker_, path);
+    if (!mirrored) return;
+    const std::size_t count = path.points.size();
+    std::vector<std::size_t> middle;
+    for (std::size_t i = 0; i < count; ++i) {
+      if (distance(path.points[i], mirrored->points[i]) < kMergeDistanceMm) middle.push_back(i);
+    }
+    std::size_t begin = 0, end = 0;  // of the half that stays; around a closed path
+    if (path.closed) {
+      if (middle.size() != 2) return;
+      begin = middle[0];
+      end = middle[1];
+      if (sideOf(path, begin, end) < 0) {
+        begin = middle[1];
+        end = middle[0] + count;
+      }
+    } else {
+      if (middle.size() != 1 || middle[0] == 0 || middle[0] + 1 == count) return;
+      if (distance(path.points.front(), mirrored->points.back()) > kSameEnd) return;
+      const bool isFirst = sideOf(path, 0, middle[0]) > 0;
+      begin = isFirst ? 0 : middle[0];
+      end = isFirst ? middle[0] : count - 1;
+    }
+    SurfacePath whole;
+    whole.closed = path.closed;
+    const auto addHalf = [&] {
+      for (std::size_t i = begin; i < end; ++i) add(path, i, i, whole);
+    };
+    const auto addImage = [&] {  // backward
+      for (std::size_t i = end; i > begin; --i) add(*mirrored, i, i - 1, whole);
+    };
+    if (path.closed || begin == 0) {
+      addHalf();
+      addImage();
+      if (!path.closed) whole.points.push_back(mirrored->points[begin]);
+    } else {
+      addImage();
+      addHalf();
+      whole.points.push_back(path.points[end]);
+    }
+    path = std::move(whole);
+  }
+
+ private:
+  /// A point and the face of the segment that leaves it.
+  static void add(const SurfacePath& from, std::size_t point, std::size_t segment,
+                  SurfacePath& to) {
+    to.points.push_back(from.points[point % from.points.size()]);
+    to.faceOfSegment.push_back(from.faceOfSegment[segment % from.faceOfSegment.size()]);
+  }
+  [[nodiscard]] double distance(const SurfacePoint& a, const SurfacePoint& b) const {
+    return (position(*model_.mesh, a) - position(*model_.mesh, b)).norm();
+  }
+  /// > 0 on the side that stays.
+  [[nodiscard]] double sideOf(const SurfacePath& path, std::size_t begin, std::size_t end) const {
+    double sum = 0;
+    for (std::size_t i = begin; i <= end; ++i) {
+      const SurfacePoint& point = path.points[i % path.points.size()];
+      sum += model_.symmetry->normal.dot(position(*model_.mesh, point)) - model_.symmetry->offset;
+    }
+    return keep_ * sum;
+  }
+
+  const ReferenceModel& model_;
+  double keep_;
+  GeodesicLinker linker_;
+};
+
+}  // namespace
+
+void makeLinesSymmetric(const Document& document, std::vector<PlacedCurve>& curves) {
+  const ReferenceModel& model = *document.model;
+  const Design& design = *document.design;
+  const auto twin = std::find_if(design.pieces.begin(), design.pieces.end(),
+                                 [](const PieceRecord& r) { return r.twin.has_value(); });
+  if (twin == design.pieces.end() || !model.symmetry || model.symmetry->partner.empty()) return;
+  const PieceRecord* original = recordOf(design, twin->twin->of);
+  if (original == nullptr) return;
+  const Result<SurfacePoint> anchor = resolvePlace(original->anchor, model, curves);
+  if (!anchor) return;
+  const double side =
+      model.symmetry->normal.dot(position(*model.mesh, *anchor)) - model.symmetry->offset;
+  LineMirror mirror(model, side < 0 ? -1 : 1);
+  for (PlacedCurve& curve : curves) mirror.makeSymmetric(curve.path);
+}
+
+}  // namespace toile
