@@ -13,5 +13,6 @@ void addBody(CLI::App& app, Session& session);
 void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
+void addTransfer(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

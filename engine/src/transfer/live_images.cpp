@@ -26,23 +26,33 @@ SurfacePoint placeOnImage(const Mesh& mesh, const SurfacePath& image, const Work
   return pointAtFraction(mesh, image, std::clamp(foot.arc / length(mesh, image), 0.0, 1.0));
 }
 
-/// Moves a data point of a curve to another place.
-Result<void> moveData(Sketch& sketch, const std::string& id, const SurfacePoint& from,
-                      const SurfacePoint& to) {
+/// Leads a curve through another place instead of a data point, or also, where others still end at
+/// the latter.
+Result<void> leadThrough(Sketch& sketch, const std::string& id, const SurfacePoint& from,
+                         const SurfacePoint& to, bool keepsFrom) {
   const CurveWay way = sketch.edit(id).way;
   Result<WorkCurve> work = sketch.load(id);
   if (!work) return work.error();
-  for (SurfacePoint& point : work->data) {
-    if (point == from) point = to;
+  const Mesh& mesh = sketch.mesh();
+  const auto found = std::find(work->data.begin(), work->data.end(), from);
+  if (found == work->data.end()) return {};
+  auto at = static_cast<std::size_t>(found - work->data.begin());
+  if (keepsFrom) {
+    const PathFoot foot = nearestOnPath(mesh, pathOf(*work), position(mesh, to));
+    at = insertData(mesh, *work, foot.arc);
+    if (work->data[at] == from) return {};  // nearer than cutting tells apart
   }
-  std::vector<SurfacePoint> points = work->data;
-  Result<WorkCurve> moved = makeWorkCurve(sketch.linker(), sketch.mesh(), points, work->closed);
-  if (!moved) return moved.error().during("curve \"" + id + "\"");
-  if (moved->data.size() == work->data.size()) {
-    moved->isControl = work->isControl;
-    moved->isCorner = work->isCorner;
+  work->data[at] = to;
+  for (SurfacePath& link : work->links) {
+    const auto i = static_cast<std::size_t>(&link - work->links.data());
+    if (!(link.points.front() == work->from(i)) || !(link.points.back() == work->to(i))) {
+      link.points.clear();
+    }
   }
-  sketch.store(id, *moved);
+  if (const Result<void> linked = linkAll(sketch.linker(), *work); !linked) {
+    return linked.error().during("curve \"" + id + "\"");
+  }
+  sketch.store(id, *work);
   if (!std::holds_alternative<SmoothWay>(way)) sketch.edit(id).way = way;
   return {};
 }
@@ -65,16 +75,21 @@ Result<void> reviveImage(Sketch& sketch, const Design& own, std::size_t index,
   if (!image) return image.error();
   for (const SurfacePoint& point : old->data) {
     const ModelPoint stored = toModelPoint(sketch.mesh(), point);
-    std::optional<SurfacePoint> to;
+    // Other images follow their originals, which meet as they do.
+    std::vector<std::string> through;
     for (std::size_t c = 0; c < own.curves.size(); ++c) {
-      // Other images follow their originals, which meet as they do.
       if (c == index || originalOf[c]) continue;
       const auto& data = sketch.design().curves[c].dataPoints;
-      if (std::find(data.begin(), data.end(), stored) == data.end()) continue;
-      if (!to) to = placeOnImage(sketch.mesh(), image->front().path, *old, point);
-      if (*to == point) break;
-      const Result<void> moved = moveData(sketch, own.curves[c].id, point, *to);
-      if (!moved) return moved;
+      if (std::find(data.begin(), data.end(), stored) != data.end()) {
+        through.push_back(own.curves[c].id);
+      }
+    }
+    if (through.empty()) continue;
+    const SurfacePoint to = placeOnImage(sketch.mesh(), image->front().path, *old, point);
+    if (to == point) continue;
+    for (const std::string& other : through) {
+      const Result<void> led = leadThrough(sketch, other, point, to, through.size() > 1);
+      if (!led) return led;
     }
   }
   return {};

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/pipeline/carry.h"
+
+#include <fmt/format.h>
+
+#include <array>
+
+#include "toile/body/body.h"
+
+namespace toile {
+
+namespace {
+
+/// One body of the family: what is said of it, the rest follows.
+struct Kind {
+  double masculine;
+  double height, chest, waist, hip;  ///< mm; 0 = not said
+};
+constexpr std::array kFamily = {
+    Kind{0, 0, 0, 0, 0},            // the model of most designs
+    Kind{1, 0, 0, 0, 0},            // a man
+    Kind{0, 1790, 0, 0, 0},         // tall
+    Kind{0, 1550, 0, 0, 0},         // short
+    Kind{0, 0, 1160, 1020, 1190},   // heavy
+    Kind{1, 0, 1180, 1120, 1160},   // a heavy man
+    Kind{1, 1880, 0, 0, 0},         // a tall man
+    Kind{0, 1280, 0, 0, 0},         // a child
+};
+
+std::shared_ptr<const Mesh> makeMember(const Kind& kind) {
+  BodyOptions options;
+  options.masculine = kind.masculine;
+  const auto say = [&](BodyMeasure measure, double mm) {
+    if (mm > 0) options.measures[measure] = Length::mm(mm);
+  };
+  say(BodyMeasure::Height, kind.height);
+  say(BodyMeasure::Chest, kind.chest);
+  say(BodyMeasure::Waist, kind.waist);
+  say(BodyMeasure::Hip, kind.hip);
+  const Result<ReferenceModel> body = makeBody(options);
+  TOILE_ASSERT(body.hasValue());
+  return body->mesh;
+}
+
+Error missedLimits(const Fit& fit, const std::string& scan) {
+  std::string reasons;
+  for (const Finding& reason : fit.report.reasons) {
+    reasons += (reasons.empty() ? "" : "; ") + reason.message;
+  }
+  return {ErrorCode::NotConverged,
+          fmt::format("the model does not fit {} as it must: {}", scan, reasons),
+          fit.report.reasons.front().where};
+}
+
+Result<Fit> fitOwnModel(const Document& document, const Scan& scan, const CarryOptions& options,
+                        Progress* progress) {
+  if (progress != nullptr) progress->step("fit the model to " + scan.name);
+  FitOptions fitting = options.fit;
+  const auto& family = builtinFamily();
+  if (fitting.family.empty() && document.model->mesh->connectivityHash() ==
+                                    family.front()->connectivityHash()) {
+    fitting.family = family;
+  }
+  Result<Fit> fit = fitTemplate(*document.model, scan, fitting, progress);
+  if (!fit) return fit.error();
+  if (!fit->report.isOk()) return missedLimits(*fit, scan.name);
+  return fit;
+}
+
+}  // namespace
+
+const std::vector<std::shared_ptr<const Mesh>>& builtinFamily() {
+  static const auto family = [] {
+    std::vector<std::shared_ptr<const Mesh>> members;
+    for (const Kind& kind : kFamily) members.push_back(makeMember(kind));
+    return members;
+  }();
+  return family;
+}
+
+Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
+                                  const CarryOptions& options, Progress* progress) {
+  Result<Fit> fit = fitOwnModel(document, scan, options, progress);
+  if (!fit) return fit.error();
+  const auto target = std::make_shared<const ReferenceModel>(fit->model);
+  const auto map = Correspondence::onOneConnectivity(document.model->index, target->index);
+  if (!map) return map.error();
+  Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
+  if (!transfer) return transfer.error();
+  return CarriedDesign{*std::move(transfer), *std::move(fit)};
+}
+
+Result<CarriedDesign> carryToModel(const Document& document,
+                                   const std::shared_ptr<const ReferenceModel>& target,
+                                   const CarryOptions& options, Progress* progress) {
+  CarriedDesign carried;
+  Result<Correspondence> map = [&]() -> Result<Correspondence> {
+    if (document.model->mesh->connectivityHash() == target->mesh->connectivityHash()) {
+      return Correspondence::onOneConnectivity(document.model->index, target->index);
+    }
+    Result<Fit> fit =
+        fitOwnModel(document, makeScan(target->name, *target->mesh), options, progress);
+    if (!fit) return fit.error();
+    carried.fit = *std::move(fit);
+    return Correspondence::throughFit(document.model->index, carried.fit->model.index,
+                                      target->index);
+  }();
+  if (!map) return map.error();
+  Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
+  if (!transfer) return transfer.error();
+  carried.transfer = *std::move(transfer);
+  return carried;
+}
+
+}  // namespace toile
