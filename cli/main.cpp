@@ -21,7 +21,8 @@ constexpr std::size_t kMaxThreads = 1024;
 
 // Sub-commands that design.md promises but that this version does not have: asking for one is
 // answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"batch", "scan", "map", "warp", "convert", "studio", "check-sewing"};
+constexpr std::array kLaterCommands = {"batch",   "scan",   "map",         "warp",
+                                       "convert", "studio", "check-sewing"};
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
   app.set_version_flag("--version", std::string("toile ") + version(), "Print the version");

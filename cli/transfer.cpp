@@ -39,8 +39,7 @@ void print(const CarriedDesign& carried, const Arguments& arguments) {
   for (const TransferredCurve& curve : carried.transfer.curves) {
     fmt::print("{:<22} {:8.1f} {:8.1f}  {:>2} -> {:>2} -> {:>2}  {:9.2f}  {}\n", curve.id,
                curve.lengthBefore.mm(), curve.lengthAfter.mm(), curve.bendsBefore,
-               curve.bendsCarried, curve.bendsAfter, curve.deviation.mm(),
-               toString(curve.fairing));
+               curve.bendsCarried, curve.bendsAfter, curve.deviation.mm(), toString(curve.fairing));
   }
   fmt::print("{}\n", arguments.out.string());
 }

@@ -49,8 +49,8 @@ std::string writeModelFile(const ReferenceModel& model, const std::string& meshF
   } else {
     const Symmetry& symmetry = *model.symmetry;
     const Eigen::Vector3d& n = symmetry.normal;
-    Json& written = json["symmetry"] = {{"normal", {n.x(), n.y(), n.z()}},
-                                        {"offset", symmetry.offset}};
+    Json& written =
+        json["symmetry"] = {{"normal", {n.x(), n.y(), n.z()}}, {"offset", symmetry.offset}};
     if (!symmetry.partner.empty()) {
       Json& partner = written["partner"] = Json::array();
       for (const VertexId v : symmetry.partner.values()) partner.push_back(v.index());

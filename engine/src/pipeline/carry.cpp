@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 
 #include "toile/body/body.h"
@@ -17,14 +18,14 @@ struct Kind {
   double height, chest, waist, hip;  ///< mm; 0 = not said
 };
 constexpr std::array kFamily = {
-    Kind{0, 0, 0, 0, 0},            // the model of most designs
-    Kind{1, 0, 0, 0, 0},            // a man
-    Kind{0, 1790, 0, 0, 0},         // tall
-    Kind{0, 1550, 0, 0, 0},         // short
-    Kind{0, 0, 1160, 1020, 1190},   // heavy
-    Kind{1, 0, 1180, 1120, 1160},   // a heavy man
-    Kind{1, 1880, 0, 0, 0},         // a tall man
-    Kind{0, 1280, 0, 0, 0},         // a child
+    Kind{0, 0, 0, 0, 0},           // the model of most designs
+    Kind{1, 0, 0, 0, 0},           // a man
+    Kind{0, 1790, 0, 0, 0},        // tall
+    Kind{0, 1550, 0, 0, 0},        // short
+    Kind{0, 0, 1160, 1020, 1190},  // heavy
+    Kind{1, 0, 1180, 1120, 1160},  // a heavy man
+    Kind{1, 1880, 0, 0, 0},        // a tall man
+    Kind{0, 1280, 0, 0, 0},        // a child
 };
 
 std::shared_ptr<const Mesh> makeMember(const Kind& kind) {
@@ -42,6 +43,11 @@ std::shared_ptr<const Mesh> makeMember(const Kind& kind) {
   return body->mesh;
 }
 
+/// Hands of scans are in any posture, and most products end before them: a share of the scan may be
+/// beside the fit. Half a body or two people are far beyond.
+constexpr double kStrayShare = 0.06;
+constexpr double kMissingShare = 0.2;
+
 Error missedLimits(const Fit& fit, const std::string& scan) {
   std::string reasons;
   for (const Finding& reason : fit.report.reasons) {
@@ -56,9 +62,11 @@ Result<Fit> fitOwnModel(const Document& document, const Scan& scan, const CarryO
                         Progress* progress) {
   if (progress != nullptr) progress->step("fit the model to " + scan.name);
   FitOptions fitting = options.fit;
+  fitting.limits.strayShare = std::max(fitting.limits.strayShare, Ratio::of(kStrayShare));
+  fitting.limits.missingShare = std::max(fitting.limits.missingShare, Ratio::of(kMissingShare));
   const auto& family = builtinFamily();
-  if (fitting.family.empty() && document.model->mesh->connectivityHash() ==
-                                    family.front()->connectivityHash()) {
+  if (fitting.family.empty() &&
+      document.model->mesh->connectivityHash() == family.front()->connectivityHash()) {
     fitting.family = family;
   }
   Result<Fit> fit = fitTemplate(*document.model, scan, fitting, progress);

@@ -18,7 +18,8 @@ SurfacePoint placeOnImage(const Mesh& mesh, const SurfacePath& image, const Work
                           const SurfacePoint& point) {
   const Eigen::Vector3d place = position(mesh, point);
   if (!old.closed && (point == old.data.front() || point == old.data.back())) {
-    const SurfacePoint& end = point == old.data.front() ? image.points.front() : image.points.back();
+    const SurfacePoint& end =
+        point == old.data.front() ? image.points.front() : image.points.back();
     return (position(mesh, end) - place).norm() < kOnImage ? point : end;
   }
   const PathFoot foot = nearestOnPath(mesh, image, place);

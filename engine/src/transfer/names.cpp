@@ -49,8 +49,7 @@ Result<SurfacePath> carryPath(const ReferenceModel& target, const Correspondence
                               GeodesicLinker& linker, const SurfacePath& path) {
   std::vector<SurfacePoint> points;
   const auto isSame = [&](const SurfacePoint& a, const SurfacePoint& b) {
-    return a == b ||
-           (position(*target.mesh, a) - position(*target.mesh, b)).norm() < kSamePoint;
+    return a == b || (position(*target.mesh, a) - position(*target.mesh, b)).norm() < kSamePoint;
   };
   for (const SurfacePoint& point : path.points) {
     const SurfacePoint image = map.toB(point);

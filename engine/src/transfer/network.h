@@ -12,7 +12,7 @@ namespace toile::detail {
 /// All curves of a design on the surface, live mirror images too, with every meeting a data point
 /// of all the curves that meet there, bit for bit the same.
 struct CurveNetwork {
-  std::vector<WorkCurve> curves;                     ///< parallel to Design::curves
+  std::vector<WorkCurve> curves;                       ///< parallel to Design::curves
   std::vector<std::optional<std::size_t>> originalOf;  ///< of a live mirror image
 };
 

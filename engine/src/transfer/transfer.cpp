@@ -48,7 +48,8 @@ Restlessness restlessness(const Mesh& mesh, const SurfacePath& path) {
 bool isRestless(const TransferredCurve& curve) {
   const double before = curve.variationBefore * curve.lengthBefore.mm();
   const double carried = curve.variationCarried * curve.lengthCarried.mm();
-  return curve.bendsCarried > curve.bendsBefore || carried > kMoreRestless * before + kRestlessFacets;
+  return curve.bendsCarried > curve.bendsBefore ||
+         carried > kMoreRestless * before + kRestlessFacets;
 }
 
 /// @param curve as it is drawn: of an image, its original
@@ -274,8 +275,8 @@ class Carrier {
     });
     if (!*cutBefore_) return cutBefore_->error().during("the design on its own model");
     if (!*after) return after->error();
-    std::set<std::string> tangled = detail::checkRecords(*design, own(), **cutBefore_, **after,
-                                                         targetMesh(), result_.findings);
+    std::set<std::string> tangled =
+        detail::checkRecords(*design, own(), **cutBefore_, **after, targetMesh(), result_.findings);
     result_.document = {std::move(design), target_};
     return tangled;
   }

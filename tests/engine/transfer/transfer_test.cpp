@@ -5,8 +5,8 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <numbers>
 #include <nlohmann/json.hpp>
+#include <numbers>
 
 #include "support/sample_designs.h"
 #include "support/test_data.h"
@@ -210,8 +210,7 @@ TEST(Transfer, GoesToAModelOfOtherConnectivity) {
   const Result<ReferenceModel> read = readModel(fine, *parseFileUnit("mm"));
   ASSERT_TRUE(read) << read.error();
   const auto target = std::make_shared<const ReferenceModel>(*read);
-  const auto map =
-      Correspondence::throughFit(own->model->index, own->model->index, target->index);
+  const auto map = Correspondence::throughFit(own->model->index, own->model->index, target->index);
   ASSERT_TRUE(map) << map.error();
   const Result<Transfer> transfer = transferDesign(*own, target, *map, {});
   ASSERT_TRUE(transfer) << transfer.error();
@@ -223,8 +222,7 @@ TEST(Transfer, GoesToAModelOfOtherConnectivity) {
   EXPECT_NEAR(std::abs(named.symmetry->normal.x()), 1, 1e-3);
   // The same body: girths differ by what the smooth surface bulges over flat triangles.
   for (const TransferredCurve& curve : transfer->curves) {
-    EXPECT_NEAR(curve.lengthAfter.mm(), curve.lengthBefore.mm(),
-                0.03 * curve.lengthBefore.mm() + 1)
+    EXPECT_NEAR(curve.lengthAfter.mm(), curve.lengthBefore.mm(), 0.03 * curve.lengthBefore.mm() + 1)
         << curve.id;
   }
   const Result<Pattern> pattern = makePattern(transfer->document);
@@ -245,8 +243,8 @@ TEST(TransferRecords, AnchorBesideItsRegionIsMovedThere) {
   const Result<CutResult> after = cut(test::withDesign(own, swapped), *placed);
   ASSERT_TRUE(after) << after.error();
   std::vector<Finding> findings;
-  const auto tangled = detail::checkRecords(swapped, *own.design, *before, *after,
-                                            *own.model->mesh, findings);
+  const auto tangled =
+      detail::checkRecords(swapped, *own.design, *before, *after, *own.model->mesh, findings);
   // Both halves of a sleeve are bounded by the same curves; the cycles tell them apart or not at
   // all, and what cannot be told apart is reported rather than guessed.
   ASSERT_FALSE(detail::boundingCycles(before->pieces[0]).empty());

@@ -34,11 +34,11 @@ struct TransferredCurve {
   };
   std::string id;
   Fairing fairing = Fairing::None;
-  Length lengthBefore;                  ///< on its own model
-  Length lengthCarried, lengthAfter;    ///< on the other, before and after fairing
-  int bendsBefore = 0;                         ///< changes of direction of bending on its own model
-  int bendsCarried = 0, bendsAfter = 0;        ///< on the other, before and after fairing
-  double variationBefore = 0;                  ///< of geodesic curvature, 1/mm, on its own model
+  Length lengthBefore;                   ///< on its own model
+  Length lengthCarried, lengthAfter;     ///< on the other, before and after fairing
+  int bendsBefore = 0;                   ///< changes of direction of bending on its own model
+  int bendsCarried = 0, bendsAfter = 0;  ///< on the other, before and after fairing
+  double variationBefore = 0;            ///< of geodesic curvature, 1/mm, on its own model
   double variationCarried = 0, variationAfter = 0;
   Length deviation;  ///< farthest that fairing moved a point of it
 };
