@@ -44,7 +44,7 @@ Result<void> removeSpikes(Sketch& sketch, std::span<const std::string> ids) {
       const std::size_t n = work->data.size();
       const auto isEnd = [&](std::size_t i) { return !work->closed && (i == 0 || i + 1 == n); };
       for (std::size_t i = 0; i < n; ++i) {
-        if (isEnd(i) || turnCosine(mesh, *work, i) > kTurnsBack) continue;
+        if (isEnd(i) || work->isCorner[i] || turnCosine(mesh, *work, i) > kTurnsBack) continue;
         if (!isShared(work->data[i])) {
           isOut[i] = true;
           continue;
@@ -55,15 +55,19 @@ Result<void> removeSpikes(Sketch& sketch, std::span<const std::string> ids) {
       }
       if (std::find(isOut.begin(), isOut.end(), true) == isOut.end()) break;
       std::vector<SurfacePoint> kept;
-      std::vector<bool> isControl;
+      std::vector<bool> isControl, isCorner;
       for (std::size_t i = 0; i < n; ++i) {
         if (isOut[i]) continue;
         kept.push_back(work->data[i]);
         isControl.push_back(work->isControl[i]);
+        isCorner.push_back(work->isCorner[i]);
       }
       Result<WorkCurve> made = makeWorkCurve(sketch.linker(), mesh, kept, work->closed);
       if (!made) break;  // too little would be left
-      if (made->data.size() == isControl.size()) made->isControl = isControl;
+      if (made->data.size() == isControl.size()) {
+        made->isControl = isControl;
+        made->isCorner = isCorner;
+      }
       work = std::move(made);
       isChanged = true;
     }

@@ -61,13 +61,9 @@ TransferredCurve::Fairing fairingOf(const StylingCurve& curve, const Transferred
   if (std::find(options.keep.begin(), options.keep.end(), curve.id) != options.keep.end()) {
     return Fairing::Kept;
   }
-  const auto* smooth = std::get_if<SmoothWay>(&curve.way);
-  const auto* view = std::get_if<ViewWay>(&curve.way);
-  const bool isAngular = (smooth != nullptr && !smooth->corners.empty()) ||
-                         (view != nullptr && !view->corners.empty()) ||
-                         std::holds_alternative<ShortestWay>(curve.way);
-  if (isAngular) return Fairing::Angular;
-  const bool isOnModelCurve = smooth == nullptr && view == nullptr;
+  if (std::holds_alternative<ShortestWay>(curve.way)) return Fairing::Angular;
+  const bool isOnModelCurve =
+      !std::holds_alternative<SmoothWay>(curve.way) && !std::holds_alternative<ViewWay>(curve.way);
   if (isOnModelCurve && !isCut(curve.kind)) return Fairing::Anatomical;
   return isRestless(report) ? Fairing::Faired : Fairing::Calm;
 }

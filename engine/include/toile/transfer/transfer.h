@@ -30,7 +30,7 @@ struct TransferredCurve {
     Calm,        ///< it is no more restless than on its own model
     Kept,        ///< by TransferOptions::keep
     Anatomical,  ///< no cut, along a model curve, a section or mesh edges: left where it is
-    Angular      ///< it was drawn with corners
+    Angular      ///< it was drawn straight from point to point
   };
   std::string id;
   Fairing fairing = Fairing::None;
