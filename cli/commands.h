@@ -14,5 +14,6 @@ void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
 void addTransfer(CLI::App& app, Session& session);
+void addBatch(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

@@ -21,8 +21,7 @@ constexpr std::size_t kMaxThreads = 1024;
 
 // Sub-commands that design.md promises but that this version does not have: asking for one is
 // answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"batch",   "scan",   "map",         "warp",
-                                       "convert", "studio", "check-sewing"};
+constexpr std::array kLaterCommands = {"scan", "map", "warp", "convert", "studio", "check-sewing"};
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
   app.set_version_flag("--version", std::string("toile ") + version(), "Print the version");
@@ -115,6 +114,7 @@ int runProgram(int argc, char** argv) {
   addRender(app, session);
   addFit(app, session);
   addTransfer(app, session);
+  addBatch(app, session);
   app.require_subcommand(0, 1);
   app.footer(
       "`toile COMMAND --help` tells about one command. Exit status: 0 done, 1 the work failed, "

@@ -184,8 +184,8 @@ TEST(FairCurves, KeepsCorners) {
   EXPECT_LT(faired->curves[0].variationAfter, 0.15 * faired->curves[0].variationBefore);
   const Mesh& mesh = *document.model->mesh;
   const SurfacePath path = test::pathOf(faired->document, "v");
-  const Vector3d corner = test::placeOf(
-      document, *toSurfacePoint(mesh, std::get<ModelPoint>(way.controls[20])));
+  const Vector3d corner =
+      test::placeOf(document, *toSurfacePoint(mesh, std::get<ModelPoint>(way.controls[20])));
   const double arc = nearestOnPath(mesh, path, corner).arc, all = length(mesh, path);
   const auto at = [&](double s) { return position(mesh, pointAtFraction(mesh, path, s / all)); };
   const Vector3d in = at(arc) - at(arc - 12), out = at(arc + 12) - at(arc);
