@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `toile batch`: one design, many bodies. Each order is made by a program of its own, so that
 // nothing that happens to one can stop the others, and memory does not grow with their number.
-#include <fmt/format.h>
 #include <fcntl.h>
+#include <fmt/format.h>
 #include <spawn.h>
 #include <sys/prctl.h>
 #include <sys/wait.h>
@@ -49,11 +49,17 @@ void dieWithParent() {
 
 /// Starts `toile batch ... --task N` without a word on the terminal. @return its process, or -1
 pid_t start(const Arguments& arguments, const Session& session, std::size_t task) {
-  std::vector<std::string> words = {"toile",    "batch", arguments.design.string(),
-                                    "--bodies", arguments.bodies.string(),
-                                    "-o",       arguments.out.string(),
-                                    "--task",   std::to_string(task),
-                                    "--threads", "1"};
+  std::vector<std::string> words = {"toile",
+                                    "batch",
+                                    arguments.design.string(),
+                                    "--bodies",
+                                    arguments.bodies.string(),
+                                    "-o",
+                                    arguments.out.string(),
+                                    "--task",
+                                    std::to_string(task),
+                                    "--threads",
+                                    "1"};
   if (session.units) {
     words.emplace_back("--units");
     words.emplace_back(toString(*session.units));
@@ -71,8 +77,8 @@ pid_t start(const Arguments& arguments, const Session& session, std::size_t task
   posix_spawn_file_actions_addopen(&quiet, STDOUT_FILENO, "/dev/null", O_WRONLY, 0);
   posix_spawn_file_actions_addopen(&quiet, STDERR_FILENO, "/dev/null", O_WRONLY, 0);
   pid_t process = -1;
-  if (posix_spawn(&process, "/proc/self/exe", &quiet, nullptr, argv.data(),
-                  variables.data()) != 0) {
+  if (posix_spawn(&process, "/proc/self/exe", &quiet, nullptr, argv.data(), variables.data()) !=
+      0) {
     process = -1;
   }
   posix_spawn_file_actions_destroy(&quiet);
@@ -97,9 +103,9 @@ Result<void> makeOpen(const Arguments& arguments, const Session& session,
   }
   const std::size_t kept = orders.size() - open.size();
   if (kept > 0) progress.step(fmt::format("{} of {} orders are made already", kept, orders.size()));
-  const std::size_t jobs =
-      arguments.jobs > 0 ? arguments.jobs
-                         : std::max<std::size_t>(1, std::thread::hardware_concurrency());
+  const std::size_t jobs = arguments.jobs > 0
+                               ? arguments.jobs
+                               : std::max<std::size_t>(1, std::thread::hardware_concurrency());
   std::map<pid_t, std::size_t> running;
   std::size_t next = 0;
   while (next < open.size() || !running.empty()) {

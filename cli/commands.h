@@ -15,5 +15,6 @@ void addRender(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
 void addTransfer(CLI::App& app, Session& session);
 void addBatch(CLI::App& app, Session& session);
+void addGrade(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

@@ -115,6 +115,7 @@ int runProgram(int argc, char** argv) {
   addFit(app, session);
   addTransfer(app, session);
   addBatch(app, session);
+  addGrade(app, session);
   app.require_subcommand(0, 1);
   app.footer(
       "`toile COMMAND --help` tells about one command. Exit status: 0 done, 1 the work failed, "

@@ -107,8 +107,8 @@ TEST_F(Batch, SharesAndCollectGiveTheSameBytes) {
 
 TEST_F(Batch, IsResumedAfterAKillWithTheSameBytesAndNoWorkTwice) {
   const fs::path out = folder_->path() / "killed";
-  std::vector<std::string> words = {TOILE_EXECUTABLE, "batch", kWetsuit, "--bodies", list_,
-                                    "-o",             out,     "-j",     "1"};
+  std::vector<std::string> words = {
+      TOILE_EXECUTABLE, "batch", kWetsuit, "--bodies", list_, "-o", out, "-j", "1"};
   std::vector<char*> argv;
   for (std::string& word : words) argv.push_back(word.data());
   argv.push_back(nullptr);

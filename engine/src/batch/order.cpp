@@ -58,8 +58,8 @@ Result<CarriedDesign> carry(const fs::path& design, const BatchOrder& order, Pro
     if (!places) return places.error();
     options.fit.landmarks = *std::move(places);
   }
-  Result<ReferenceModel> model = isBuiltin(order.body) ? makeBuiltinModel(order.body)
-                                                       : readModel(order.body, order.unit);
+  Result<ReferenceModel> model =
+      isBuiltin(order.body) ? makeBuiltinModel(order.body) : readModel(order.body, order.unit);
   const bool isOwn =
       model && model->mesh->connectivityHash() == own->model->mesh->connectivityHash();
   if (isOwn || (model && (isBuiltin(order.body) || order.body.ends_with(".json")))) {
@@ -79,8 +79,7 @@ std::map<std::string, double> measure(const ReferenceModel& model) {
   return measures;
 }
 
-Result<Pattern> makeFor(const CarriedDesign& carried, const BatchOrder& order,
-                        Progress* progress) {
+Result<Pattern> makeFor(const CarriedDesign& carried, const BatchOrder& order, Progress* progress) {
   Document document = carried.transfer.document;
   Design design = *document.design;
   if (!order.customer.empty()) design.order.customer = order.customer;
@@ -217,8 +216,8 @@ std::optional<OrderOutcome> findOutcome(const fs::path& design, const BatchOrder
   return std::move(read->outcome);
 }
 
-Result<OrderOutcome> makeOrder(const fs::path& design, const BatchOrder& order,
-                               const fs::path& out, Progress* progress) {
+Result<OrderOutcome> makeOrder(const fs::path& design, const BatchOrder& order, const fs::path& out,
+                               Progress* progress) {
   return writeOrder(design, order, out, [&](const fs::path& folder) -> Result<OrderOutcome> {
     try {
       return makeIn(folder, design, order, progress);
@@ -233,8 +232,8 @@ Result<OrderOutcome> makeOrder(const fs::path& design, const BatchOrder& order,
   });
 }
 
-Result<OrderOutcome> failOrder(const fs::path& design, const BatchOrder& order,
-                               const fs::path& out, const std::string& reason) {
+Result<OrderOutcome> failOrder(const fs::path& design, const BatchOrder& order, const fs::path& out,
+                               const std::string& reason) {
   return writeOrder(design, order, out, [&](const fs::path&) -> Result<OrderOutcome> {
     OrderOutcome outcome;
     outcome.name = order.name;

@@ -27,7 +27,8 @@ std::string folderName(const std::string& text) {
   std::string name;
   for (const char c : text) {
     const auto byte = static_cast<unsigned char>(c);
-    const bool isBad = byte < 32 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
+    const bool isBad =
+        byte < 32 || std::string_view("/\\:*?\"<>|").find(c) != std::string_view::npos;
     name += isBad ? '-' : c;
   }
   while (!name.empty() && (name.back() == '.' || name.back() == ' ')) name.pop_back();
@@ -179,7 +180,8 @@ Result<std::vector<BatchOrder>> ordersInList(const fs::path& list, std::optional
   std::vector<BatchOrder> orders;
   std::size_t number = 0;
   const auto refuse = [&](const std::string& why) {
-    return Error{ErrorCode::FileFormat, fmt::format("{}, line {}: {}", list.string(), number, why),
+    return Error{ErrorCode::FileFormat,
+                 fmt::format("{}, line {}: {}", list.string(), number, why),
                  {Element::line(number)}};
   };
   while (!rest.empty()) {
@@ -211,9 +213,8 @@ Result<std::vector<BatchOrder>> ordersInList(const fs::path& list, std::optional
 
 Result<std::vector<BatchOrder>> readOrders(const fs::path& bodies, std::optional<FileUnit> unit) {
   std::error_code ignored;
-  Result<std::vector<BatchOrder>> orders = fs::is_directory(bodies, ignored)
-                                               ? ordersInFolder(bodies, unit)
-                                               : ordersInList(bodies, unit);
+  Result<std::vector<BatchOrder>> orders =
+      fs::is_directory(bodies, ignored) ? ordersInFolder(bodies, unit) : ordersInList(bodies, unit);
   if (orders) makeUnique(*orders);
   return orders;
 }

@@ -14,6 +14,7 @@
 #include "io/file_date.h"
 #include "io/sheet_drawing.h"
 #include "toile/core/version.h"
+#include "toile/io/nested.h"
 
 namespace toile {
 namespace {
@@ -71,27 +72,55 @@ class Writer {
  public:
   explicit Writer(const Pattern& pattern) : pattern_(pattern), design_(*pattern.document.design) {}
 
-  DxfFile write() {
-    chooseNames();
-    out_.section("HEADER");
-    out_.endSection();
-    out_.section("BLOCKS");
-    for (std::size_t i = 0; i < pattern_.pieces.size(); ++i) writeBlock(i);
-    out_.endSection();
-    out_.section("ENTITIES");
+  DxfFile write() { return writeAll({this, 1}, *this); }
+
+  /// Several sizes in one file, with the style text of the base size.
+  static DxfFile writeAll(std::span<Writer> sizes, Writer& base) {
+    DxfFile file;
+    base.out_.section("HEADER");
+    base.out_.endSection();
+    base.out_.section("BLOCKS");
+    const auto take = [&file](Writer& writer) {
+      file.text += writer.out_.str();
+      writer.out_ = DxfText();
+    };
+    take(base);
+    for (Writer& size : sizes) {
+      size.chooseNames();
+      for (std::size_t i = 0; i < size.pattern_.pieces.size(); ++i) size.writeBlock(i);
+      take(size);
+    }
+    base.out_.endSection();
+    base.out_.section("ENTITIES");
+    take(base);
+    for (Writer& size : sizes) {
+      size.writeInserts();
+      take(size);
+    }
+    base.writeStyleText();
+    base.out_.endSection();
+    base.out_.group(0, "EOF");
+    take(base);
+    for (Writer& size : sizes) {
+      for (Finding& finding : size.findings_) {
+        const bool isKnown =
+            std::find(file.findings.begin(), file.findings.end(), finding) != file.findings.end();
+        if (!isKnown) file.findings.push_back(std::move(finding));
+      }
+    }
+    return file;
+  }
+
+ private:
+  void writeInserts() {
     for (const std::string& name : blockNames_) {
       out_.group(0, "INSERT");
       out_.group(8, kBoundary);
       out_.group(2, name);
       out_.point(10, DxfPoint{});
     }
-    writeStyleText();
-    out_.endSection();
-    out_.group(0, "EOF");
-    return {out_.str(), std::move(findings_)};
   }
 
- private:
   /// ASCII, and a finding where letters are lost or changed.
   std::string plainText(const std::string& text, const char* what, std::size_t most = 200) {
     std::string ascii = toAscii(text);
@@ -288,6 +317,16 @@ class Writer {
 
 DxfFile writeDxf(const Pattern& pattern) {
   return Writer(pattern).write();
+}
+
+DxfFile writeNestedDxf(std::span<const NestedSize> sizes) {
+  std::vector<Writer> writers;
+  std::size_t base = 0;
+  for (const NestedSize& size : sizes) {
+    if (size.isBase) base = writers.size();
+    writers.emplace_back(*size.pattern);
+  }
+  return Writer::writeAll(writers, writers[base]);
 }
 
 }  // namespace toile

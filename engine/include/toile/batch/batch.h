@@ -21,7 +21,7 @@ struct BatchOrder {
   std::optional<FileUnit> unit;  ///< of a file that does not say it
   std::string customer, size;
   std::filesystem::path landmarks;  ///< places on the scan by name; empty = none
-  std::string refusal;  ///< why this row cannot be an order; empty = it can
+  std::string refusal;              ///< why this row cannot be an order; empty = it can
 };
 
 /// Reads the orders of a batch, in their order.
@@ -40,14 +40,14 @@ struct OrderOutcome {
   std::string name;
   std::string status;  ///< "done", "incomplete" (pieces are missing), "failed"
   std::string reason;  ///< of a failure, in words
-  /// How much it needs a person's eye, 0..100: 100 failed, from 90 pieces missing, below by distance
-  /// of the fit, invented surface, strain and findings (docs/batch.md).
+  /// How much it needs a person's eye, 0..100: 100 failed, from 90 pieces missing, below by
+  /// distance of the fit, invented surface, strain and findings (docs/batch.md).
   double attention = 0;
   bool isFitted = false;
-  double fitMean = 0, fit95 = 0;   ///< mm, scan to fit
-  double missingShare = 0;         ///< of the fitted body, without scan near it
+  double fitMean = 0, fit95 = 0;  ///< mm, scan to fit
+  double missingShare = 0;        ///< of the fitted body, without scan near it
   std::size_t pieces = 0;
-  double worstAreaError = 0;       ///< greatest mean area error of a piece
+  double worstAreaError = 0;  ///< greatest mean area error of a piece
   std::string worstPiece;
   std::vector<Finding> findings;
   std::map<std::string, double> measures;  ///< mm: height, and the length of every model curve
@@ -59,8 +59,7 @@ Result<ContentHash> orderKey(const std::filesystem::path& design, const BatchOrd
 
 /// The outcome that a former run left in the order's folder, if it was made from the same content.
 std::optional<OrderOutcome> findOutcome(const std::filesystem::path& design,
-                                        const BatchOrder& order,
-                                        const std::filesystem::path& out);
+                                        const BatchOrder& order, const std::filesystem::path& out);
 
 /// Makes one order: fit, transfer, fairing, unfolding, checks, files. An independent share of the
 /// work: it reads the design and its own body, and writes `out`/`order.name` and nothing else.
