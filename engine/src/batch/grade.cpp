@@ -221,8 +221,7 @@ Result<std::vector<GradedSize>> gradeDesign(const Document& document,
 }
 
 Result<std::vector<Finding>> writeGrading(const std::vector<GradedSize>& sizes,
-                                          const std::filesystem::path& folder,
-                                          Progress* progress) {
+                                          const std::filesystem::path& folder, Progress* progress) {
   std::vector<Finding> findings;
   std::vector<Pattern> nested;
   std::vector<NestedSize> list;
@@ -233,8 +232,8 @@ Result<std::vector<Finding>> writeGrading(const std::vector<GradedSize>& sizes,
         writePattern(*size.pattern, folder / folderName(size.name), progress);
     if (!written) return written.error();
     for (const Finding& finding : written->findings) {
-      findings.push_back({finding.code, "size " + size.name + ": " + finding.message,
-                          finding.where});
+      findings.push_back(
+          {finding.code, "size " + size.name + ": " + finding.message, finding.where});
     }
     nested.push_back(*size.pattern);
     nested.back().layout = size.nest;

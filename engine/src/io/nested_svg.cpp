@@ -26,7 +26,8 @@ std::string number(double mm) {
 
 class Writer {
  public:
-  explicit Writer(std::span<const NestedSize> sizes) : sizes_(sizes), out_(std::back_inserter(text_)) {
+  explicit Writer(std::span<const NestedSize> sizes)
+      : sizes_(sizes), out_(std::back_inserter(text_)) {
     for (const NestedSize& size : sizes) {
       sheets_.push_back(drawSheet(*size.pattern));
       const Box2& box = sheets_.back().box;
@@ -37,8 +38,7 @@ class Writer {
   }
 
   std::string write() {
-    const Eigen::Vector2d size =
-        max_ - min_ + Eigen::Vector2d(2 * kMarginMm, 2 * kMarginMm + key_);
+    const Eigen::Vector2d size = max_ - min_ + Eigen::Vector2d(2 * kMarginMm, 2 * kMarginMm + key_);
     const std::string& title = sizes_.front().pattern->document.design->name;
     fmt::format_to(out_,
                    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"

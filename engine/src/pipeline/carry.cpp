@@ -3,10 +3,12 @@
 
 #include <fmt/format.h>
 
+#include <Eigen/Geometry>
 #include <algorithm>
 #include <array>
 
 #include "toile/body/body.h"
+#include "toile/curve/curvature.h"
 
 namespace toile {
 
@@ -58,6 +60,42 @@ Error missedLimits(const Fit& fit, const std::string& scan) {
           fit.report.reasons.front().where};
 }
 
+/// Triangles of the scan whose side is looked at.
+constexpr std::size_t kSides = 2000;
+
+/// Whether the faces of a scan look inward. Of a closed one reading says it, having turned it; of
+/// one with holes the fit shows it.
+bool looksInward(const Scan& scan, const Fit& fit) {
+  for (const Finding& finding : scan.findings) {
+    if (finding.code == "turned-surface") return true;
+  }
+  std::size_t seen = 0, inward = 0;
+  const std::size_t step = std::max<std::size_t>(1, scan.triangles.size() / kSides);
+  for (std::size_t t = 0; t < scan.triangles.size(); t += step) {
+    const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
+      return scan.points[scan.triangles[t][k].index()];
+    };
+    const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    const ClosestPoint near =
+        fit.model.index->closestPoint((corner(0) + corner(1) + corner(2)) / 3);
+    ++seen;
+    if (normal.dot(smoothNormal(*fit.model.mesh, near.point)) < 0) ++inward;
+  }
+  return 2 * inward > seen;
+}
+
+/// What reading the scan had to say, and what a scanner's faces may betray.
+std::vector<Finding> findingsOf(const Scan& scan, const Fit& fit) {
+  std::vector<Finding> findings = scan.findings;
+  if (looksInward(scan, fit)) {
+    findings.push_back({"maybe-mirrored",
+                        "the faces of the scan look inward: it may be mirrored, so that left and "
+                        "right have changed places; compare it with the person",
+                        {}});
+  }
+  return findings;
+}
+
 Result<Fit> fitOwnModel(const Document& document, const Scan& scan, const CarryOptions& options,
                         Progress* progress) {
   if (progress != nullptr) progress->step("fit the model to " + scan.name);
@@ -95,6 +133,8 @@ Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
   if (!map) return map.error();
   Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
   if (!transfer) return transfer.error();
+  std::vector<Finding> findings = findingsOf(scan, *fit);
+  transfer->findings.insert(transfer->findings.begin(), findings.begin(), findings.end());
   return CarriedDesign{*std::move(transfer), *std::move(fit)};
 }
 

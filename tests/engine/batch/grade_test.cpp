@@ -82,8 +82,8 @@ TEST_F(Grade, SizesOfAPieceLieOnEachOtherAndPiecesApart) {
   for (const auto& [a, boxA] : boxes) {
     for (const auto& [b, boxB] : boxes) {
       if (a >= b) continue;
-      const bool isApart =
-          (boxA.min.array() > boxB.max.array()).any() || (boxB.min.array() > boxA.max.array()).any();
+      const bool isApart = (boxA.min.array() > boxB.max.array()).any() ||
+                           (boxB.min.array() > boxA.max.array()).any();
       EXPECT_TRUE(isApart) << a << " and " << b;
     }
   }

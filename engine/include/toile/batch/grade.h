@@ -26,12 +26,12 @@ struct GradedSize {
 /// In the nest, each piece of a size lies on that of the base size by the rigid motion that brings
 /// the ends of its seams closest to those of the base; pieces stand in rows, apart from each other.
 /// @param base the name of one of the sizes
-/// @return NameNotFound for `base`; the errors of makeBody(), carryToModel(), makePattern() with the
+/// @return NameNotFound for `base`; the errors of makeBody(), carryToModel(), makePattern() with
+/// the
 ///   size; NotConverged when a piece cannot be made in a size.
 Result<std::vector<GradedSize>> gradeDesign(const Document& document,
                                             std::span<const BodySize> sizes,
-                                            const std::string& base,
-                                            Progress* progress = nullptr);
+                                            const std::string& base, Progress* progress = nullptr);
 
 /// Writes for each size a folder as writePattern() does, and nested.svg, nested.dxf and grade.csv,
 /// the length of every seam in every size.

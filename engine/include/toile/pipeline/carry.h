@@ -29,7 +29,8 @@ struct CarriedDesign {
 const std::vector<std::shared_ptr<const Mesh>>& builtinFamily();
 
 /// Fits the design's model to a scan and carries the design over to the fitted shape: closed, on
-/// the connectivity that the design knows, without the scan's holes and noise.
+/// the connectivity that the design knows, without the scan's holes and noise. The findings begin
+/// with those of the scan, and maybe-mirrored where its faces look inward.
 /// @return NotConverged when the fit misses its limits, with the reasons; the errors of
 ///   fitTemplate() and transferDesign().
 Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
