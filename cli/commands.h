@@ -18,5 +18,8 @@ void addConvert(CLI::App& app, Session& session);
 void addCheckSewing(CLI::App& app, Session& session);
 void addMap(CLI::App& app, Session& session);
 void addNest(CLI::App& app, Session& session);
+void addTransfer(CLI::App& app, Session& session);
+void addBatch(CLI::App& app, Session& session);
+void addGrade(CLI::App& app, Session& session);
 
 }  // namespace toile::cli

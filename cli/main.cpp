@@ -21,7 +21,7 @@ constexpr std::size_t kMaxThreads = 1024;
 
 // Sub-commands that design.md promises but that this version does not have: asking for one is
 // answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"transfer", "batch", "scan", "warp"};
+constexpr std::array kLaterCommands = {"scan", "warp"};
 
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
@@ -119,6 +119,9 @@ int runProgram(int argc, char** argv) {
   addCheckSewing(app, session);
   addMap(app, session);
   addNest(app, session);
+  addTransfer(app, session);
+  addBatch(app, session);
+  addGrade(app, session);
   app.require_subcommand(0, 1);
   app.footer(
       "`toile COMMAND --help` tells about one command. Exit status: 0 done, 1 the work failed, "

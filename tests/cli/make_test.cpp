@@ -184,14 +184,14 @@ TEST(Make, RefusesACurveThatLeavesTheSilhouette) {
   EXPECT_FALSE(fs::exists(folder.path() / "out"));
 }
 
-TEST(Make, RefusesABodyOfAnotherMesh) {
+TEST(Make, RefusesABodyThatIsNoScan) {
   const TemporaryFolder folder;
   writeText(folder.path() / "m.obj",
             "# toile-units: mm\nv 0 0 0\nv 100 0 0\nv 0 100 0\nv 0 0 100\n"
             "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n");
   expectRefusal(
       toile({"make", kSleeve, "--body", folder.path() / "m.obj", "-o", folder.path() / "out"}), 1,
-      "another connectivity");
+      "a scan needs 100");
 }
 
 TEST(Make, RefusesAnUnwritableFolder) {

@@ -66,10 +66,11 @@ Result<Pattern> makePattern(const Document& document, const MakeOptions& options
 /// Reads a design and the model it is used on: its own first model, or `body` in its place.
 ///
 /// A body without names (a mesh file) on the connectivity of the design's own model takes over the
-/// names of that model.
+/// names of that model. To one of another connectivity, or points without faces, the design's model
+/// is fitted and the design carried over to the fitted shape (pipeline/carry.h).
 /// @param body a mesh file, a `*.model.json` or "builtin:...".
-/// @return the document; the errors of readDesign(), readModel(), makeBuiltinModel(); ModelMismatch
-///   for a body without names of another connectivity.
+/// @return the document; the errors of readDesign(), readModel(), makeBuiltinModel() and of
+///   carryToScan(), which refuses what is no such body.
 Result<Document> openDocument(const std::filesystem::path& design,
                               const std::optional<std::string>& body = std::nullopt,
                               std::optional<FileUnit> unit = std::nullopt);

@@ -5,8 +5,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "design/section_loop.h"
+#include "design/single_places.h"
 #include "model/mirror.h"
 
 namespace toile::detail {
@@ -92,11 +94,12 @@ Result<std::vector<SurfacePoint>> Sketch::controlPlaces(const StylingCurve& curv
   if (controls == nullptr) return places;
   std::vector<PlacedCurve> hungOn;
   for (const Place& place : *controls) {
-    if (const auto* on = std::get_if<OnStylingCurve>(&place)) {
-      Result<std::vector<PlacedCurve>> placed =
-          placeCurves(design_, *model_, std::span(&on->id, 1), linker_);
+    std::vector<std::string> ids;
+    forEachOfKind<OnStylingCurve>(place, [&](const OnStylingCurve& on) { ids.push_back(on.id); });
+    if (!ids.empty()) {
+      Result<std::vector<PlacedCurve>> placed = placeCurves(design_, *model_, ids, linker_);
       if (!placed) return placed.error();
-      hungOn.push_back(std::move(placed->front()));
+      std::move(placed->begin(), placed->end(), std::back_inserter(hungOn));
     }
     Result<SurfacePoint> point = resolvePlace(place, *model_, hungOn);
     if (!point) return point.error();

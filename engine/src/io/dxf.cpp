@@ -15,6 +15,7 @@
 #include "io/file_date.h"
 #include "io/sheet_drawing.h"
 #include "toile/core/version.h"
+#include "toile/io/nested.h"
 #include "toile/sew/sewing.h"
 
 namespace toile {
@@ -101,26 +102,45 @@ class Writer {
         options_(options),
         out_(options.inches) {}
 
-  DxfFile write() {
-    chooseNames();
-    out_.section("HEADER");
-    if (options_.dialect == DxfDialect::Rich) writeVariables();
-    out_.endSection();
-    if (options_.dialect == DxfDialect::Rich) writeTables();
-    out_.section("BLOCKS");
-    for (std::size_t i = 0; i < pattern_.pieces.size(); ++i) writeBlock(i);
-    out_.endSection();
-    out_.section("ENTITIES");
-    for (const std::string& name : blockNames_) {
-      out_.group(0, "INSERT");
-      out_.group(8, kBoundary);
-      out_.group(2, name);
-      out_.point(10, DxfPoint{});
+  DxfFile write() { return writeAll({this, 1}, *this); }
+
+  /// Several sizes in one file, with the style text of the base size.
+  static DxfFile writeAll(std::span<Writer> sizes, Writer& base) {
+    DxfFile file;
+    base.out_.section("HEADER");
+    if (base.options_.dialect == DxfDialect::Rich) base.writeVariables();
+    base.out_.endSection();
+    if (base.options_.dialect == DxfDialect::Rich) base.writeTables();
+    base.out_.section("BLOCKS");
+    const auto take = [&file](Writer& writer) {
+      file.text += writer.out_.str();
+      writer.out_ = DxfText(writer.options_.inches);
+    };
+    take(base);
+    for (Writer& size : sizes) {
+      size.chooseNames();
+      for (std::size_t i = 0; i < size.pattern_.pieces.size(); ++i) size.writeBlock(i);
+      take(size);
     }
-    writeStyleText();
-    out_.endSection();
-    out_.group(0, "EOF");
-    return {out_.str(), std::move(findings_)};
+    base.out_.endSection();
+    base.out_.section("ENTITIES");
+    take(base);
+    for (Writer& size : sizes) {
+      size.writeInserts();
+      take(size);
+    }
+    base.writeStyleText();
+    base.out_.endSection();
+    base.out_.group(0, "EOF");
+    take(base);
+    for (Writer& size : sizes) {
+      for (Finding& finding : size.findings_) {
+        const bool isKnown =
+            std::find(file.findings.begin(), file.findings.end(), finding) != file.findings.end();
+        if (!isKnown) file.findings.push_back(std::move(finding));
+      }
+    }
+    return file;
   }
 
   std::vector<std::string> blockNames() {
@@ -129,6 +149,15 @@ class Writer {
   }
 
  private:
+  void writeInserts() {
+    for (const std::string& name : blockNames_) {
+      out_.group(0, "INSERT");
+      out_.group(8, kBoundary);
+      out_.group(2, name);
+      out_.point(10, DxfPoint{});
+    }
+  }
+
   [[nodiscard]] bool isAama() const { return options_.dialect == DxfDialect::Aama; }
 
   void writeVariables() {
@@ -421,6 +450,16 @@ DxfFile writeDxf(const Pattern& pattern, const DxfOptions& options) {
 
 std::vector<std::string> dxfBlockNames(const Pattern& pattern) {
   return Writer(pattern, {}).blockNames();
+}
+
+DxfFile writeNestedDxf(std::span<const NestedSize> sizes) {
+  std::vector<Writer> writers;
+  std::size_t base = 0;
+  for (const NestedSize& size : sizes) {
+    if (size.isBase) base = writers.size();
+    writers.emplace_back(*size.pattern, DxfOptions{});
+  }
+  return Writer::writeAll(writers, writers[base]);
 }
 
 }  // namespace toile

@@ -145,6 +145,30 @@ Result<void> checkCount(const Json& json, std::string_view key, std::size_t coun
                {}};
 }
 
+/// A landmark beside the vertices: a triangle and the weights of its corners.
+Result<SurfacePoint> readFacePoint(const Mesh& mesh, const Json& json, const std::string& name,
+                                   const std::string& file) {
+  const auto tri = json.find("tri"), bary = json.find("bary");
+  const bool hasFace = tri != json.end() && tri->is_number_unsigned() &&
+                       tri->get<std::uint64_t>() < mesh.faceCount();
+  const bool hasWeights =
+      bary != json.end() && bary->is_array() && bary->size() == 3 &&
+      std::all_of(bary->begin(), bary->end(), [](const Json& w) { return w.is_number(); });
+  if (hasFace && hasWeights) {
+    const Eigen::Vector3d w((*bary)[0].get<double>(), (*bary)[1].get<double>(),
+                            (*bary)[2].get<double>());
+    if (w.allFinite() && w.minCoeff() >= -kWeightTolerance &&
+        std::abs(w.sum() - 1) <= 3 * kWeightTolerance) {
+      return makeSurfacePoint(mesh, FaceId(tri->get<std::uint64_t>()), w);
+    }
+  }
+  return Error{ErrorCode::FileFormat,
+               fmt::format("{}: landmark \"{}\" is neither a vertex nor a triangle of this mesh "
+                           "(which has {}) with three weights that add up to 1",
+                           file, name, mesh.faceCount()),
+               {Element::landmark(name)}};
+}
+
 /// The object under `key`; null if there is none.
 const Json* objectAt(const Json& json, std::string_view key) {
   const auto at = json.is_object() ? json.find(key) : json.end();
@@ -197,6 +221,12 @@ Result<std::map<std::string, SurfacePoint>> readLandmarks(const Mesh& mesh, cons
   }
   std::map<std::string, SurfacePoint> landmarks;
   for (const auto& [name, vertex] : list->items()) {
+    if (vertex.is_object()) {
+      Result<SurfacePoint> point = readFacePoint(mesh, vertex, name, file);
+      if (!point) return point.error();
+      landmarks.emplace(name, *std::move(point));
+      continue;
+    }
     if (!vertex.is_number_unsigned() || vertex.get<std::uint64_t>() >= mesh.vertexCount()) {
       return Error{ErrorCode::FileFormat,
                    fmt::format("{}: landmark \"{}\" is no vertex of this mesh, which has {}", file,

@@ -3,6 +3,7 @@
 
 #include "toile/design/design_file.h"
 #include "toile/pipeline.h"
+#include "toile/pipeline/carry.h"
 #include "toile/shape/builtin.h"
 
 namespace toile {
@@ -15,34 +16,54 @@ Result<ReferenceModel> loadModel(const std::string& reference, const std::filesy
   return readModel(path.is_absolute() ? path : folder / path, unit);
 }
 
+bool isMeshFile(const std::string& reference) {
+  return !isBuiltin(reference) && !reference.ends_with(".json");
+}
+
 bool hasNames(const ReferenceModel& model) {
   return !model.curves.empty() || !model.landmarks.empty();
 }
 
-Result<ReferenceModel> loadBody(const std::string& body, const Design& design,
-                                const std::filesystem::path& folder, std::optional<FileUnit> unit) {
-  Result<ReferenceModel> model = loadModel(body, {}, unit);
-  if (!model || hasNames(*model) || design.models.empty()) return model;
+/// What was done to bring the design there, for those who only see a document.
+Finding describe(const Fit& fit, const std::string& body) {
+  return {"fitted-body",
+          fmt::format("the design's model was fitted to {}: {:.1f} mm mean distance, 95 % within "
+                      "{:.1f} mm; {:.1f} % of it has no scan near it",
+                      body, fit.report.scanToFit.mean, fit.report.scanToFit.percentile95,
+                      100 * fit.report.missingShare),
+          {}};
+}
+
+/// The design on a mesh file without names: on the connectivity of the design's own model as it
+/// is, otherwise on the own model fitted to it.
+Result<Document> openOnMesh(Design design, const std::filesystem::path& folder,
+                            const std::string& body, std::optional<FileUnit> unit,
+                            const Result<ReferenceModel>& model) {
   const ModelReference& own = design.models.front();
   const Result<ReferenceModel> names = loadModel(own.reference, folder, own.unit ? own.unit : unit);
   if (!names) return names.error().during("the design's own model, whose names are needed");
-  if (names->mesh->connectivityHash() != model->mesh->connectivityHash()) {
-    return Error{
-        ErrorCode::ModelMismatch,
-        fmt::format("{} has another connectivity ({} vertices, {} triangles) than the model "
-                    "of the design, {} ({} vertices, {} triangles); carrying a design over "
-                    "to such a model is not part of this version, choose a body on the "
-                    "same mesh",
-                    body, model->mesh->vertexCount(), model->mesh->faceCount(), own.reference,
-                    names->mesh->vertexCount(), names->mesh->faceCount()),
-        {}};
-  }
-  Result<ReferenceModel> named = withMesh(*names, model->name, *model->mesh);
-  if (named) {
+  if (model && names->mesh->connectivityHash() == model->mesh->connectivityHash()) {
+    Result<ReferenceModel> named = withMesh(*names, model->name, *model->mesh);
+    if (!named) return named.error();
     named->reference = body;
     named->findings = model->findings;
+    return Document{std::make_shared<const Design>(std::move(design)),
+                    std::make_shared<const ReferenceModel>(*std::move(named))};
   }
-  return named;
+  // Also points without faces, and surfaces with faults that no mesh can be made of.
+  const Result<Scan> scan = readScan(body, unit);
+  if (!scan) return model ? scan.error() : model.error();
+  const Document document{std::make_shared<const Design>(std::move(design)),
+                          std::make_shared<const ReferenceModel>(*names)};
+  Result<CarriedDesign> carried = carryToScan(document, *scan);
+  if (!carried) return carried.error();
+  ReferenceModel fitted = *carried->transfer.document.model;
+  fitted.name = std::filesystem::path(body).stem().string();
+  fitted.reference = body;
+  fitted.findings.push_back(describe(*carried->fit, body));
+  for (const Finding& finding : carried->transfer.findings) fitted.findings.push_back(finding);
+  return Document{carried->transfer.document.design,
+                  std::make_shared<const ReferenceModel>(std::move(fitted))};
 }
 
 }  // namespace
@@ -57,14 +78,17 @@ Result<Document> openDocument(const std::filesystem::path& path,
     return Error{
         ErrorCode::InvalidArgument, path.string() + " names no model; say one with --body", {}};
   }
-  Result<ReferenceModel> model = [&] {
-    if (body) return loadBody(*body, *design, folder, unit);
-    const ModelReference& own = design->models.front();
-    return loadModel(own.reference, folder, own.unit ? own.unit : unit);
-  }();
+  const ModelReference* own = design->models.empty() ? nullptr : &design->models.front();
+  const Result<ReferenceModel> model =
+      body ? loadModel(*body, {}, unit)
+           : loadModel(own->reference, folder, own->unit ? own->unit : unit);
+  if (body && own != nullptr && isMeshFile(*body) && (!model || !hasNames(*model))) {
+    if (!model && model.error().code == ErrorCode::FileNotFound) return model.error();
+    return openOnMesh(*std::move(design), folder, *body, unit, model);
+  }
   if (!model) return model.error();
   return Document{std::make_shared<const Design>(std::move(*design)),
-                  std::make_shared<const ReferenceModel>(std::move(*model))};
+                  std::make_shared<const ReferenceModel>(*model)};
 }
 
 }  // namespace toile

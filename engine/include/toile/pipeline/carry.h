@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "toile/core/progress.h"
+#include "toile/fit/fit.h"
+#include "toile/transfer/transfer.h"
+
+namespace toile {
+
+struct CarryOptions {
+  TransferOptions transfer;
+  FitOptions fit;  ///< an empty family is filled from the built-in bodies where the design's model
+                   ///< has their connectivity
+};
+
+/// A design on the shape of a scan.
+struct CarriedDesign {
+  Transfer transfer;
+  std::optional<Fit> fit;  ///< nothing where the body has the design's own connectivity
+};
+
+/// What the shapes of built-in bodies usually differ in: women, men, children, slim and heavy, on
+/// the connectivity of builtin:body@1. Made once for a process.
+const std::vector<std::shared_ptr<const Mesh>>& builtinFamily();
+
+/// Fits the design's model to a scan and carries the design over to the fitted shape: closed, on
+/// the connectivity that the design knows, without the scan's holes and noise. The findings begin
+/// with those of the scan, and maybe-mirrored where its faces look inward.
+/// @return NotConverged when the fit misses its limits, with the reasons; the errors of
+///   fitTemplate() and transferDesign().
+Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
+                                  const CarryOptions& options = {}, Progress* progress = nullptr);
+
+/// The same onto the surface of a model itself, by way of a fit where its connectivity is another.
+Result<CarriedDesign> carryToModel(const Document& document,
+                                   const std::shared_ptr<const ReferenceModel>& target,
+                                   const CarryOptions& options = {}, Progress* progress = nullptr);
+
+}  // namespace toile

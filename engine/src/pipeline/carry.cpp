@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "toile/pipeline/carry.h"
+
+#include <fmt/format.h>
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+
+#include "toile/body/body.h"
+#include "toile/curve/curvature.h"
+
+namespace toile {
+
+namespace {
+
+/// One body of the family: what is said of it, the rest follows.
+struct Kind {
+  double masculine;
+  double height, chest, waist, hip;  ///< mm; 0 = not said
+};
+constexpr std::array kFamily = {
+    Kind{0, 0, 0, 0, 0},           // the model of most designs
+    Kind{1, 0, 0, 0, 0},           // a man
+    Kind{0, 1790, 0, 0, 0},        // tall
+    Kind{0, 1550, 0, 0, 0},        // short
+    Kind{0, 0, 1160, 1020, 1190},  // heavy
+    Kind{1, 0, 1180, 1120, 1160},  // a heavy man
+    Kind{1, 1880, 0, 0, 0},        // a tall man
+    Kind{0, 1280, 0, 0, 0},        // a child
+};
+
+std::shared_ptr<const Mesh> makeMember(const Kind& kind) {
+  BodyOptions options;
+  options.masculine = kind.masculine;
+  const auto say = [&](BodyMeasure measure, double mm) {
+    if (mm > 0) options.measures[measure] = Length::mm(mm);
+  };
+  say(BodyMeasure::Height, kind.height);
+  say(BodyMeasure::Chest, kind.chest);
+  say(BodyMeasure::Waist, kind.waist);
+  say(BodyMeasure::Hip, kind.hip);
+  const Result<ReferenceModel> body = makeBody(options);
+  TOILE_ASSERT(body.hasValue());
+  return body->mesh;
+}
+
+/// Hands of scans are in any posture, and most products end before them: a share of the scan may be
+/// beside the fit. Half a body or two people are far beyond.
+constexpr double kStrayShare = 0.06;
+constexpr double kMissingShare = 0.2;
+
+Error missedLimits(const Fit& fit, const std::string& scan) {
+  std::string reasons;
+  for (const Finding& reason : fit.report.reasons) {
+    reasons += (reasons.empty() ? "" : "; ") + reason.message;
+  }
+  return {ErrorCode::NotConverged,
+          fmt::format("the model does not fit {} as it must: {}", scan, reasons),
+          fit.report.reasons.front().where};
+}
+
+/// Triangles of the scan whose side is looked at.
+constexpr std::size_t kSides = 2000;
+
+/// Whether the faces of a scan look inward. Of a closed one reading says it, having turned it; of
+/// one with holes the fit shows it.
+bool looksInward(const Scan& scan, const Fit& fit) {
+  for (const Finding& finding : scan.findings) {
+    if (finding.code == "turned-surface") return true;
+  }
+  std::size_t seen = 0, inward = 0;
+  const std::size_t step = std::max<std::size_t>(1, scan.triangles.size() / kSides);
+  for (std::size_t t = 0; t < scan.triangles.size(); t += step) {
+    const auto corner = [&](std::size_t k) -> const Eigen::Vector3d& {
+      return scan.points[scan.triangles[t][k].index()];
+    };
+    const Eigen::Vector3d normal = (corner(1) - corner(0)).cross(corner(2) - corner(0));
+    const ClosestPoint near =
+        fit.model.index->closestPoint((corner(0) + corner(1) + corner(2)) / 3);
+    ++seen;
+    if (normal.dot(smoothNormal(*fit.model.mesh, near.point)) < 0) ++inward;
+  }
+  return 2 * inward > seen;
+}
+
+/// What reading the scan had to say, and what a scanner's faces may betray.
+std::vector<Finding> findingsOf(const Scan& scan, const Fit& fit) {
+  std::vector<Finding> findings = scan.findings;
+  if (looksInward(scan, fit)) {
+    findings.push_back({"maybe-mirrored",
+                        "the faces of the scan look inward: it may be mirrored, so that left and "
+                        "right have changed places; compare it with the person",
+                        {}});
+  }
+  return findings;
+}
+
+Result<Fit> fitOwnModel(const Document& document, const Scan& scan, const CarryOptions& options,
+                        Progress* progress) {
+  if (progress != nullptr) progress->step("fit the model to " + scan.name);
+  FitOptions fitting = options.fit;
+  fitting.limits.strayShare = std::max(fitting.limits.strayShare, Ratio::of(kStrayShare));
+  fitting.limits.missingShare = std::max(fitting.limits.missingShare, Ratio::of(kMissingShare));
+  const auto& family = builtinFamily();
+  if (fitting.family.empty() &&
+      document.model->mesh->connectivityHash() == family.front()->connectivityHash()) {
+    fitting.family = family;
+  }
+  Result<Fit> fit = fitTemplate(*document.model, scan, fitting, progress);
+  if (!fit) return fit.error();
+  if (!fit->report.isOk()) return missedLimits(*fit, scan.name);
+  return fit;
+}
+
+}  // namespace
+
+const std::vector<std::shared_ptr<const Mesh>>& builtinFamily() {
+  static const auto family = [] {
+    std::vector<std::shared_ptr<const Mesh>> members;
+    for (const Kind& kind : kFamily) members.push_back(makeMember(kind));
+    return members;
+  }();
+  return family;
+}
+
+Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
+                                  const CarryOptions& options, Progress* progress) {
+  Result<Fit> fit = fitOwnModel(document, scan, options, progress);
+  if (!fit) return fit.error();
+  const auto target = std::make_shared<const ReferenceModel>(fit->model);
+  const auto map = Correspondence::onOneConnectivity(document.model->index, target->index);
+  if (!map) return map.error();
+  Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
+  if (!transfer) return transfer.error();
+  std::vector<Finding> findings = findingsOf(scan, *fit);
+  transfer->findings.insert(transfer->findings.begin(), findings.begin(), findings.end());
+  return CarriedDesign{*std::move(transfer), *std::move(fit)};
+}
+
+Result<CarriedDesign> carryToModel(const Document& document,
+                                   const std::shared_ptr<const ReferenceModel>& target,
+                                   const CarryOptions& options, Progress* progress) {
+  CarriedDesign carried;
+  Result<Correspondence> map = [&]() -> Result<Correspondence> {
+    if (document.model->mesh->connectivityHash() == target->mesh->connectivityHash()) {
+      return Correspondence::onOneConnectivity(document.model->index, target->index);
+    }
+    Result<Fit> fit =
+        fitOwnModel(document, makeScan(target->name, *target->mesh), options, progress);
+    if (!fit) return fit.error();
+    carried.fit = *std::move(fit);
+    return Correspondence::throughFit(document.model->index, carried.fit->model.index,
+                                      target->index);
+  }();
+  if (!map) return map.error();
+  Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
+  if (!transfer) return transfer.error();
+  carried.transfer = *std::move(transfer);
+  return carried;
+}
+
+}  // namespace toile
