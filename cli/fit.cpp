@@ -72,7 +72,8 @@ Result<Fit> fitFromFiles(const Arguments& arguments, const Session& session) {
   if (arguments.landmarks) {
     const Result<std::string> text = readFile(*arguments.landmarks);
     if (!text) return text.error();
-    Result<std::map<std::string, Eigen::Vector3d>> places = parseScanLandmarks(*text, arguments.landmarks->string());
+    Result<std::map<std::string, Eigen::Vector3d>> places =
+        parseScanLandmarks(*text, arguments.landmarks->string());
     if (!places) return places.error();
     options.landmarks = *std::move(places);
   }
@@ -123,8 +124,7 @@ void addFit(CLI::App& app, Session& session) {
       ->add_option("TEMPLATE", arguments->model,
                    "The model to be fitted: OBJ, PLY, STL, OFF, *.model.json, builtin:...")
       ->required();
-  command
-      ->add_option("SCAN", arguments->scan, "A mesh, or points without faces, of such a model")
+  command->add_option("SCAN", arguments->scan, "A mesh, or points without faces, of such a model")
       ->required();
   command->add_option("-o,--output", arguments->out, "PLY or OBJ file for the fitted mesh")
       ->type_name("FILE");

@@ -36,8 +36,7 @@ class System {
         graph_(problem.graph),
         nodes_(problem.graph.vertexOfNode.size()),
         members_(problem.family.size()),
-        size_(kPerNode * static_cast<Eigen::Index>(nodes_) +
-              static_cast<Eigen::Index>(members_)) {
+        size_(kPerNode * static_cast<Eigen::Index>(nodes_) + static_cast<Eigen::Index>(members_)) {
     unit_ = std::sqrt(problem.rest.totalArea / static_cast<double>(nodes_));
     prepareLevers();
     preparePairs();
@@ -121,8 +120,7 @@ class System {
       for (std::size_t a = 0; a < Graph::kPerVertex; ++a) {
         const Graph::Share& share = graph_.ofVertex[v][a];
         const Eigen::Vector3d& g = place(share.node);
-        levers_[v][a].head<3>() =
-            share.weight / unit_ * (problem_.rest.positions[v] - g);
+        levers_[v][a].head<3>() = share.weight / unit_ * (problem_.rest.positions[v] - g);
         levers_[v][a][3] = share.weight;
         base_[v] += share.weight * g;
       }
@@ -299,10 +297,11 @@ class System {
   }
 
   Pair& pairOf(std::uint32_t a, std::uint32_t b) {
-    return *std::lower_bound(pairs_.begin(), pairs_.end(), std::pair(a, b),
-                             [](const Pair& pair, const std::pair<std::uint32_t, std::uint32_t>& x) {
-                               return std::pair(pair.a, pair.b) < x;
-                             });
+    return *std::lower_bound(
+        pairs_.begin(), pairs_.end(), std::pair(a, b),
+        [](const Pair& pair, const std::pair<std::uint32_t, std::uint32_t>& x) {
+          return std::pair(pair.a, pair.b) < x;
+        });
   }
 
   /// Adds the square of  X_a^T p - X_b^T q - r  with a weight.

@@ -6,9 +6,10 @@ namespace {
 
 Result<void> checkConnectivity(const SurfaceIndex& a, const SurfaceIndex& b) {
   if (a.mesh().connectivityHash() == b.mesh().connectivityHash()) return {};
-  return Error{ErrorCode::ModelMismatch,
-               "the two shapes are not on one connectivity: no point of one is a point of the other",
-               {}};
+  return Error{
+      ErrorCode::ModelMismatch,
+      "the two shapes are not on one connectivity: no point of one is a point of the other",
+      {}};
 }
 
 }  // namespace

@@ -43,8 +43,8 @@ std::vector<Hit> nearestFaces(const Mesh& mesh, const Target& target,
       tree.visitNear(p, [&](FaceId face) {
         if (normals[face.index()].dot(n) <= kAgreement) return best;
         const auto& [a, b, c] = mesh.vertices(face);
-        const Eigen::Vector3d weights = detail::closestWeights(
-            p, mesh.position(a), mesh.position(b), mesh.position(c));
+        const Eigen::Vector3d weights =
+            detail::closestWeights(p, mesh.position(a), mesh.position(b), mesh.position(c));
         const double squared = (weights[0] * mesh.position(a) + weights[1] * mesh.position(b) +
                                 weights[2] * mesh.position(c) - p)
                                    .squaredNorm();
@@ -115,7 +115,8 @@ class Smoother {
     }
     for (std::size_t v = 0; v < positions.size(); ++v) {
       const double hold = (isHeld[v] != 0 ? 1e3 : 1e-4) * shape.area[v] / shape.totalArea;
-      entries.emplace_back(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(v), hold + 1e-15);
+      entries.emplace_back(static_cast<Eigen::Index>(v), static_cast<Eigen::Index>(v),
+                           hold + 1e-15);
     }
     Eigen::SparseMatrix<double> data(matrix.rows(), matrix.cols());
     data.setFromTriplets(entries.begin(), entries.end());

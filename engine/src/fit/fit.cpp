@@ -51,8 +51,7 @@ class Fitter {
     Target target = makeTarget(scan_);
     if (const Result<void> fine = checkSize(target); !fine) return fine.error();
     step("fit: placement");
-    const Placement placement =
-        place(makeShape(mesh_.triangles(), mesh_.positions()), target);
+    const Placement placement = place(makeShape(mesh_.triangles(), mesh_.positions()), target);
     if (placement.scanIsInsideOut) {
       for (Eigen::Vector3d& n : target.normals) n = -n;
     }
@@ -73,14 +72,14 @@ class Fitter {
     untangle(mesh_, expected, *fine);
 
     step("fit: report");
-    Result<ReferenceModel> named =
-        withMesh(model_, scan_.name, mesh_.withPositions(*fine));
+    Result<ReferenceModel> named = withMesh(model_, scan_.name, mesh_.withPositions(*fine));
     if (!named) return named.error();
     Fit fit;
     fit.model = *std::move(named);
     fit.placement.linear() = placement.similarity.scale * placement.similarity.rotation;
     fit.placement.translation() = placement.similarity.shift;
-    const std::vector<std::uint32_t> segments = segmentOfPoints(mesh_.positions(), placesOf(model_));
+    const std::vector<std::uint32_t> segments =
+        segmentOfPoints(mesh_.positions(), placesOf(model_));
     fit.report = judge({*fit.model.mesh, target, placement, expected, segments, options_.limits});
     fit.report.familySize = options_.family.size();
     return fit;
@@ -94,10 +93,10 @@ class Fitter {
   [[nodiscard]] Result<void> check() const {
     for (const auto& member : options_.family) {
       if (member->connectivityHash() == mesh_.connectivityHash()) continue;
-      return Error{ErrorCode::ModelMismatch,
-                   fmt::format("a member of the family is not on the connectivity of {}",
-                               model_.name),
-                   {}};
+      return Error{
+          ErrorCode::ModelMismatch,
+          fmt::format("a member of the family is not on the connectivity of {}", model_.name),
+          {}};
     }
     for (const auto& [name, place] : options_.landmarks) {
       if (model_.landmarks.contains(name)) {
@@ -108,10 +107,10 @@ class Fitter {
       }
       std::vector<std::string> known;
       for (const auto& [own, point] : model_.landmarks) known.push_back(own);
-      return Error{ErrorCode::InvalidArgument,
-                   fmt::format("{} has no landmark \"{}\"{}", model_.name, name,
-                               suggestion(name, known)),
-                   {Element::landmark(name)}};
+      return Error{
+          ErrorCode::InvalidArgument,
+          fmt::format("{} has no landmark \"{}\"{}", model_.name, name, suggestion(name, known)),
+          {Element::landmark(name)}};
     }
     if (scan_.points.size() < 100) {
       return Error{ErrorCode::InvalidArgument,
@@ -149,12 +148,13 @@ class Fitter {
         likely += fmt::format("{} taken for {}", toString(meant), toString(read));
       }
     }
-    return Error{ErrorCode::UnitsMissing,
-                 fmt::format("{} is {:.4g} mm across, the template {:.4g} mm{}; say the unit of the "
-                             "file with --units",
-                             scan_.name, target.diagonal, own,
-                             likely.empty() ? "" : ": is it " + likely + "?"),
-                 {}};
+    return Error{
+        ErrorCode::UnitsMissing,
+        fmt::format("{} is {:.4g} mm across, the template {:.4g} mm{}; say the unit of the "
+                    "file with --units",
+                    scan_.name, target.diagonal, own,
+                    likely.empty() ? "" : ": is it " + likely + "?"),
+        {}};
   }
 
   [[nodiscard]] Shape restShape(const Placement& placement) const {
@@ -183,9 +183,8 @@ class Fitter {
       const SurfacePoint& point = model_.landmarks.at(name);
       const FaceId face = facesOf(mesh_, point).front();
       const Triangle& t = mesh_.vertices(face);
-      pins.push_back({{t[0].index(), t[1].index(), t[2].index()},
-                      barycentricIn(mesh_, point, face),
-                      place});
+      pins.push_back(
+          {{t[0].index(), t[1].index(), t[2].index()}, barycentricIn(mesh_, point, face), place});
     }
     return pins;
   }

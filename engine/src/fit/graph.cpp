@@ -103,9 +103,8 @@ Graph makeGraph(const Mesh& connectivity, const std::vector<Eigen::Vector3d>& po
     front.pop();
     auto& list = reached[at.vertex];
     std::uint8_t& n = count[at.vertex];
-    const bool isKnown = std::any_of(list.begin(), list.begin() + n, [&](const Waiting& one) {
-      return one.source == at.source;
-    });
+    const bool isKnown = std::any_of(list.begin(), list.begin() + n,
+                                     [&](const Waiting& one) { return one.source == at.source; });
     if (n == kReached || isKnown) continue;
     list[n++] = at;
     for (std::size_t k = links.start[at.vertex]; k < links.start[at.vertex + 1]; ++k) {
@@ -119,9 +118,8 @@ Graph makeGraph(const Mesh& connectivity, const std::vector<Eigen::Vector3d>& po
   std::map<std::pair<std::uint32_t, std::uint32_t>, double> shared;
   for (std::size_t v = 0; v < positions.size(); ++v) {
     const std::size_t n = std::min<std::size_t>(count[v], Graph::kPerVertex);
-    const double limit = count[v] == kReached
-                             ? reached[v][kReached - 1].distance
-                             : 1.5 * reached[v][n - 1].distance + 1e-9;
+    const double limit = count[v] == kReached ? reached[v][kReached - 1].distance
+                                              : 1.5 * reached[v][n - 1].distance + 1e-9;
     double sum = 0;
     for (std::size_t k = 0; k < n; ++k) {
       const double left = 1 - reached[v][k].distance / limit;
@@ -131,8 +129,7 @@ Graph makeGraph(const Mesh& connectivity, const std::vector<Eigen::Vector3d>& po
     for (auto& share : graph.ofVertex[v]) share.weight /= sum;
     for (std::size_t k = 0; k < n; ++k) {
       for (std::size_t l = k + 1; l < n; ++l) {
-        const auto [a, b] =
-            std::minmax(graph.ofVertex[v][k].node, graph.ofVertex[v][l].node);
+        const auto [a, b] = std::minmax(graph.ofVertex[v][k].node, graph.ofVertex[v][l].node);
         shared[{a, b}] += graph.ofVertex[v][k].weight * graph.ofVertex[v][l].weight;
       }
     }

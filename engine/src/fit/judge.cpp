@@ -34,8 +34,8 @@ std::vector<Foot> feetOn(const Mesh& mesh, const std::vector<Eigen::Vector3d>& p
       double best = std::numeric_limits<double>::infinity();
       tree.visitNear(points[i], [&](FaceId face) {
         const auto& [a, b, c] = mesh.vertices(face);
-        const Eigen::Vector3d w = detail::closestWeights(points[i], mesh.position(a),
-                                                         mesh.position(b), mesh.position(c));
+        const Eigen::Vector3d w =
+            detail::closestWeights(points[i], mesh.position(a), mesh.position(b), mesh.position(c));
         const double squared = (w[0] * mesh.position(a) + w[1] * mesh.position(b) +
                                 w[2] * mesh.position(c) - points[i])
                                    .squaredNorm();
@@ -173,8 +173,8 @@ class Judge {
     add(report_.scanToFit.mean / (limits.meanDistance.value() * diagonal_), "fit-distance",
         fmt::format("the scan lies {:.1f} mm from the fit on average; {:.1f} mm is the limit",
                     report_.scanToFit.mean, limits.meanDistance.value() * diagonal_));
-    const double flipped = static_cast<double>(report_.flippedFaces) /
-                           static_cast<double>(fit_.mesh.faceCount());
+    const double flipped =
+        static_cast<double>(report_.flippedFaces) / static_cast<double>(fit_.mesh.faceCount());
     add(flipped / limits.flippedShare.value(), "fit-flipped-faces",
         fmt::format("{} triangles are turned inside out", report_.flippedFaces));
     const double scale = report_.scale;

@@ -87,8 +87,8 @@ class Matcher {
 
   /// Mean distance both ways, at most the cap each, over the cap.
   double score(const Similarity& at, std::size_t samples, double agreement) const {
-    const Pairs pairs = match(at, sample(shape_.area, samples), sample(target_.area, samples),
-                              agreement);
+    const Pairs pairs =
+        match(at, sample(shape_.area, samples), sample(target_.area, samples), agreement);
     const double cap = kCapShare * target_.diagonal;
     double sum = 0;
     for (std::size_t i = 0; i < pairs.from.size(); ++i) {

@@ -17,12 +17,12 @@ std::vector<Segment> makeSegments() {
   const Names hips{"hip_front", "hip_back", "hip_side_l", "hip_side_r", "crotch"};
   std::vector<Segment> segments;
   segments.push_back({"head", neck, {"crown"}, {"nose_tip", "chin"}});
-  segments.push_back({"upper trunk",
-                      neck,
-                      waist,
-                      {"bust_point_l", "bust_point_r", "bust_front", "bust_back", "underbust_front",
-                       "armpit_l", "armpit_r", "armpit_front_l", "armpit_front_r", "armpit_back_l",
-                       "armpit_back_r"}});
+  segments.push_back(
+      {"upper trunk",
+       neck,
+       waist,
+       {"bust_point_l", "bust_point_r", "bust_front", "bust_back", "underbust_front", "armpit_l",
+        "armpit_r", "armpit_front_l", "armpit_front_r", "armpit_back_l", "armpit_back_r"}});
   segments.push_back({"lower trunk", waist, hips, {"navel", "buttock_l", "buttock_r"}});
   for (const std::string side : {"_l", "_r"}) {
     const std::string word = side == "_l" ? "left " : "right ";
@@ -39,9 +39,7 @@ std::vector<Segment> makeSegments() {
     hip.push_back("crotch");
     segments.push_back({word + "upper arm", shoulder, elbow, {}});
     segments.push_back({word + "forearm", elbow, wrist, {}});
-    segments.push_back({word + "hand",
-                        wrist,
-                        sided({"middle_tip"}),
+    segments.push_back({word + "hand", wrist, sided({"middle_tip"}),
                         sided({"thumb_tip", "index_tip", "ring_tip", "little_tip"})});
     segments.push_back({word + "thigh", hip, knee, {}});
     segments.push_back({word + "shank", knee, ankle, {}});

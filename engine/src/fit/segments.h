@@ -23,7 +23,7 @@ struct Segment {
 
 /// For every point the segment it belongs to: the one whose axis is nearest, measured in the
 /// segment's thickness. Empty where landmarks are missing for an axis.
-[[nodiscard]] std::vector<std::uint32_t> segmentOfPoints(
-    const std::vector<Eigen::Vector3d>& points, const Places& landmarks);
+[[nodiscard]] std::vector<std::uint32_t> segmentOfPoints(const std::vector<Eigen::Vector3d>& points,
+                                                         const Places& landmarks);
 
 }  // namespace toile::fitting

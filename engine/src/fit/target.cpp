@@ -40,8 +40,8 @@ void takeFromFaces(const Scan& scan, Target& target) {
   for (Eigen::Vector3d& n : target.normals) n.stableNormalize();
   std::sort(sides.begin(), sides.end());
   for (std::size_t i = 0; i < sides.size(); ++i) {
-    const bool isAlone = (i == 0 || sides[i - 1] != sides[i]) &&
-                         (i + 1 == sides.size() || sides[i + 1] != sides[i]);
+    const bool isAlone =
+        (i == 0 || sides[i - 1] != sides[i]) && (i + 1 == sides.size() || sides[i + 1] != sides[i]);
     if (isAlone) target.isBorder[sides[i].first] = target.isBorder[sides[i].second] = 1;
   }
 }
@@ -54,8 +54,7 @@ struct Link {
 /// Turns normals so that neighbours agree, the surest links first.
 void orient(std::vector<Link> links, std::vector<Eigen::Vector3d>& normals) {
   std::sort(links.begin(), links.end(), [](const Link& x, const Link& y) {
-    return x.weight != y.weight ? x.weight < y.weight
-                                : std::pair(x.a, x.b) < std::pair(y.a, y.b);
+    return x.weight != y.weight ? x.weight < y.weight : std::pair(x.a, x.b) < std::pair(y.a, y.b);
   });
   // Union-find whose parents also say whether a point is turned against its root.
   std::vector<std::uint32_t> parent(normals.size());
@@ -114,7 +113,8 @@ void takeFromNeighbours(Target& target) {
       if (one.point == i || n == kNeighbours) continue;
       near[i][n] = one.point;
       const Eigen::Vector3d d = target.points[one.point] - target.points[i];
-      angles[n++] = std::atan2(d.dot(axes.eigenvectors().col(1)), d.dot(axes.eigenvectors().col(2)));
+      angles[n++] =
+          std::atan2(d.dot(axes.eigenvectors().col(1)), d.dot(axes.eigenvectors().col(2)));
     }
     std::sort(angles.begin(), angles.begin() + n);
     double gap = n == 0 ? 0 : angles[0] + 2 * std::numbers::pi - angles[n - 1];

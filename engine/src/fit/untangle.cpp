@@ -24,8 +24,8 @@ void layOut(const Mesh& mesh, const Expectation& expected, const std::vector<cha
   for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
     const std::size_t a = mesh.tail(EdgeId(e)).index();
     const std::size_t b = mesh.head(EdgeId(e)).index();
-    const Eigen::Vector3d wanted = 0.5 * (expected.linear[a] + expected.linear[b]) *
-                                   (expected.shape[b] - expected.shape[a]);
+    const Eigen::Vector3d wanted =
+        0.5 * (expected.linear[a] + expected.linear[b]) * (expected.shape[b] - expected.shape[a]);
     const auto add = [&](std::size_t own, std::size_t other, const Eigen::Vector3d& away) {
       if (number[own] < 0) return;
       entries.emplace_back(number[own], number[own], 1.0);
@@ -75,7 +75,8 @@ void untangle(const Mesh& connectivity, const Expectation& expected,
     for (int ring = 0; ring < 1 + trial; ++ring) {
       std::vector<char> wider = isMarked;
       for (const Triangle& t : connectivity.triangles()) {
-        if (std::none_of(t.begin(), t.end(), [&](VertexId v) { return isMarked[v.index()] != 0; })) {
+        if (std::none_of(t.begin(), t.end(),
+                         [&](VertexId v) { return isMarked[v.index()] != 0; })) {
           continue;
         }
         for (const VertexId v : t) wider[v.index()] = 1;

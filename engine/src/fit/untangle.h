@@ -10,8 +10,8 @@ namespace toile::fitting {
 
 /// How the shape should be locally, as its surroundings turn and stretch it.
 struct Expectation {
-  std::vector<Eigen::Vector3d> shape;   ///< untangled, of every vertex; anywhere
-  std::vector<Eigen::Matrix3d> linear;  ///< per vertex: what the surroundings do to it
+  std::vector<Eigen::Vector3d> shape;    ///< untangled, of every vertex; anywhere
+  std::vector<Eigen::Matrix3d> linear;   ///< per vertex: what the surroundings do to it
   std::vector<Eigen::Vector3d> normals;  ///< per face, unit
 };
 

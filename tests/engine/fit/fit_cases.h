@@ -78,8 +78,8 @@ inline int sweep(int usual) {
 
 }  // namespace toile::test
 
-#define TOILE_BODIES_OR_SKIP()                                       \
-  if (!::toile::test::hasBodies()) {                                 \
-    if (::toile::test::isTestDataRequired()) FAIL() << "no bodies";  \
+#define TOILE_BODIES_OR_SKIP()                                         \
+  if (!::toile::test::hasBodies()) {                                   \
+    if (::toile::test::isTestDataRequired()) FAIL() << "no bodies";    \
     GTEST_SKIP() << "no test data; set TOILE_TEST_DATA to its folder"; \
   }

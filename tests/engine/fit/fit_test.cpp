@@ -114,8 +114,8 @@ TEST(Fit, RefusesUnknownLandmarksAndAForeignFamily) {
       fitTemplate(model, scan, {.landmarks = {{"crwon", Eigen::Vector3d::Zero()}}});
   ASSERT_FALSE(misspelt);
   EXPECT_THAT(misspelt.error().message, HasSubstr("did you mean \"crown\""));
-  const Result<ReferenceModel> foot = readModel(
-      test::testDataFolder() / "feet/foot_male_wide_l.ply", FileUnit::Millimetre);
+  const Result<ReferenceModel> foot =
+      readModel(test::testDataFolder() / "feet/foot_male_wide_l.ply", FileUnit::Millimetre);
   ASSERT_TRUE(foot) << foot.error();
   const Result<Fit> foreign = fitTemplate(model, scan, {.family = {foot->mesh}});
   ASSERT_FALSE(foreign);

@@ -18,12 +18,12 @@ namespace toile {
 /// What a fit must keep to be called good; the defaults suit bodies and whatever is made for them.
 /// Lengths given as ratios are of the diagonal of the fitted model's box (a body: about 1.9 m).
 struct FitLimits {
-  Ratio meanDistance = Ratio::of(0.0016);  ///< scan to fit, where the scan is no stray part: 3 mm
-  Ratio strayDistance = Ratio::of(0.012);  ///< a scan point farther off is stray: 23 mm
-  Ratio strayShare = Ratio::percent(2);    ///< of the scan's area that may be stray
+  Ratio meanDistance = Ratio::of(0.0016);   ///< scan to fit, where the scan is no stray part: 3 mm
+  Ratio strayDistance = Ratio::of(0.012);   ///< a scan point farther off is stray: 23 mm
+  Ratio strayShare = Ratio::percent(2);     ///< of the scan's area that may be stray
   Ratio missingShare = Ratio::percent(12);  ///< of the fit's area that may have no scan near it
-  Ratio flippedShare = Ratio::of(0.001);   ///< of the triangles that may be turned inside out
-  double leastScale = 0.4;                 ///< scan to template
+  Ratio flippedShare = Ratio::of(0.001);    ///< of the triangles that may be turned inside out
+  double leastScale = 0.4;                  ///< scan to template
   double mostScale = 2.5;
 };
 
@@ -61,9 +61,9 @@ struct FitReport {
   double strayShare = 0;    ///< of the scan's area, far from the fit
   double missingShare = 0;  ///< of the fit's area, far from the scan: holes, filled from the prior
   std::size_t flippedFaces = 0;
-  std::size_t crossings = 0;  ///< pairs of faces of the fit; those of the template count too
-  DistanceSummary roundTrip;  ///< of fit -> scan -> fit, along the surface
-  double scale = 1;           ///< of the scan to the template as given
+  std::size_t crossings = 0;   ///< pairs of faces of the fit; those of the template count too
+  DistanceSummary roundTrip;   ///< of fit -> scan -> fit, along the surface
+  double scale = 1;            ///< of the scan to the template as given
   double placementMargin = 0;  ///< how much worse the second best placement is: 1 = no better
   std::size_t familySize = 0;
 };
