@@ -11,6 +11,7 @@
 
 #include "commands.h"
 #include "terminal_progress.h"
+#include "toile/body/fit_body.h"
 #include "toile/core/file.h"
 #include "toile/mesh/mesh_file.h"
 #include "toile/shape/builtin.h"
@@ -56,34 +57,49 @@ void print(const Fit& fit) {
   }
 }
 
-Result<Fit> fitFromFiles(const Arguments& arguments, const Session& session) {
-  const Result<ReferenceModel> model = loadModel(arguments.model, session.units);
-  if (!model) return model.error();
+/// The parametric body without measures of its own finds them from the scan.
+bool isParametricBody(const Arguments& arguments) {
+  return arguments.model == "builtin:body@1" && arguments.family.empty();
+}
+
+Result<BodyFit> fitFromFiles(const Arguments& arguments, const Session& session) {
   const Result<Scan> scan = readScan(arguments.scan, session.units);
   if (!scan) return scan.error();
   report(scan->findings, session);
+  std::map<std::string, Eigen::Vector3d> landmarks;
+  if (arguments.landmarks) {
+    const Result<std::string> text = readFile(*arguments.landmarks);
+    if (!text) return text.error();
+    auto places = parseScanLandmarks(*text, arguments.landmarks->string());
+    if (!places) return places.error();
+    landmarks = *std::move(places);
+  }
+  TerminalProgress progress;
+  if (isParametricBody(arguments)) {
+    BodyFitOptions options;
+    options.landmarks = std::move(landmarks);
+    options.landmarkError = arguments.landmarkError;
+    return fitBody(*scan, options, &progress);
+  }
+  const Result<ReferenceModel> model = loadModel(arguments.model, session.units);
+  if (!model) return model.error();
   FitOptions options;
+  options.landmarks = std::move(landmarks);
   options.landmarkError = arguments.landmarkError;
   for (const std::filesystem::path& file : arguments.family) {
     const Result<ReferenceModel> member = loadModel(file.string(), session.units);
     if (!member) return member.error();
     options.family.push_back(member->mesh);
   }
-  if (arguments.landmarks) {
-    const Result<std::string> text = readFile(*arguments.landmarks);
-    if (!text) return text.error();
-    Result<std::map<std::string, Eigen::Vector3d>> places =
-        parseScanLandmarks(*text, arguments.landmarks->string());
-    if (!places) return places.error();
-    options.landmarks = *std::move(places);
-  }
-  TerminalProgress progress;
-  return fitTemplate(*model, *scan, options, &progress);
+  Result<Fit> fit = fitTemplate(*model, *scan, options, &progress);
+  if (!fit) return fit.error();
+  return BodyFit{*std::move(fit), {}, {}};
 }
 
 int run(const Arguments& arguments, const Session& session) {
-  const Result<Fit> fit = fitFromFiles(arguments, session);
-  if (!fit) return fail(fit.error());
+  const Result<BodyFit> fitted = fitFromFiles(arguments, session);
+  if (!fitted) return fail(fitted.error());
+  const Fit* fit = &fitted->fit;
   const bool isGood = fit->report.isOk();
   if (arguments.out && (isGood || arguments.isKept)) {
     const std::string text = arguments.out->extension() == ".obj" ? writeObj(*fit->model.mesh)
@@ -100,12 +116,16 @@ int run(const Arguments& arguments, const Session& session) {
     std::fputs(writeFitReport(*fit).c_str(), stdout);
   } else {
     print(*fit);
+    for (std::size_t i = 0; i < fitted->measures.size(); ++i) {
+      fmt::print("  {:<16} {:7.1f} mm\n", bodyMeasures()[i].name, fitted->measures[i].mm());
+    }
   }
   for (const Finding& reason : fit->report.reasons) {
     fmt::print(stderr, "toile: {}: {} [{}]\n", arguments.scan.string(), reason.message,
                reason.code);
   }
-  if (isGood) return kDone;
+  const int status = report(fit->report.findings, session);
+  if (isGood) return status;
   if (arguments.out && !arguments.isKept) {
     fmt::print(stderr, "toile: {} is not written; --keep-failed writes it all the same\n",
                arguments.out->string());

@@ -23,6 +23,9 @@ constexpr double kFamilyPrice = 0.03;
 constexpr double kAgreement = 0.5;  // least dot product of normals
 constexpr std::array kStiffness = {10.0, 1.0, 0.1, 0.01, 0.001, 0.0001};
 constexpr std::array kPinWeight = {10.0, 10.0, 3.0, 1.0, 0.3, 0.1};
+/// Beyond four medians and this share of the scan's diagonal no pair counts: wide at first, so that
+/// a hand that lies beside the scan's still finds it.
+constexpr std::array kReach = {0.03, 0.02, 0.012, 0.006, 0.003, 0.003};
 constexpr int kRounds = 3;  // of each stiffness
 
 using Block = Eigen::Matrix<double, kPerNode, kPerNode>;
@@ -52,8 +55,8 @@ class System {
   }
 
   /// One round from the nearest points of where the shape lies now.
-  bool step(const Shape& now, double stiffness, double pinWeight) {
-    weigh(now);
+  bool step(const Shape& now, double stiffness, double pinWeight, double reach) {
+    weigh(now, reach);
     weighPins(now, pinWeight);
     assemble(stiffness);
     solver_.factorize(matrix_);
@@ -184,7 +187,7 @@ class System {
   }
 
   /// Nearest points, and how much each counts: weight_ (3 x 3) and pull_ = weight_ times where to.
-  void weigh(const Shape& now) {
+  void weigh(const Shape& now, double reach) {
     const Target& target = problem_.target;
     const std::size_t count = now.positions.size();
     std::vector<KdTree::Neighbour> near(count);
@@ -196,7 +199,9 @@ class System {
     });
     std::vector<double> distances(count);
     for (std::size_t v = 0; v < count; ++v) distances[v] = std::sqrt(near[v].squaredDistance);
-    const double gate = 4 * quantile(distances, 0.5) + 0.003 * target.diagonal;
+    const double median = quantile(distances, 0.5);
+    const double gate = 4 * median + reach * target.diagonal;
+    const double trusted = 4 * median + kReach.back() * target.diagonal;
     for (std::size_t v = 0; v < count; ++v) {
       weight_[v].setZero();
       pull_[v].setZero();
@@ -205,7 +210,7 @@ class System {
       if (distances[v] >= gate || target.isBorder[q] != 0 || now.normals[v].dot(n) <= kAgreement) {
         continue;
       }
-      const double share = 2 * distances[v] / gate;
+      const double share = 2 * distances[v] / trusted;
       const double trust = now.area[v] / now.totalArea / (1 + share * share);
       weight_[v] = trust * ((1 - kTangential) * n * n.transpose() +
                             kTangential * Eigen::Matrix3d::Identity());
@@ -397,7 +402,8 @@ std::optional<CoarseFit> fitCoarse(const CoarseProblem& problem, Progress* progr
       if (isCancelled(progress)) return std::nullopt;
       const Shape now = makeShape(problem.triangles, std::move(fit.positions));
       // A factorisation can fail only by rounding; what is reached then is still a fit.
-      const bool isDone = system.step(now, kStiffness[level], problem.pinScale * kPinWeight[level]);
+      const bool isDone =
+          system.step(now, kStiffness[level], problem.pinScale * kPinWeight[level], kReach[level]);
       fit = system.read();
       if (!isDone) return fit;
     }

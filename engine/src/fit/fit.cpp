@@ -3,13 +3,13 @@
 
 #include <fmt/format.h>
 
-#include <Eigen/SVD>
 #include <array>
 #include <cmath>
 
 #include "fit/coarse.h"
 #include "fit/fine.h"
 #include "fit/judge.h"
+#include "fit/posture.h"
 #include "fit/segments.h"
 #include "fit/untangle.h"
 #include "toile/core/nearest_name.h"
@@ -20,6 +20,8 @@ namespace {
 using namespace fitting;
 
 constexpr std::size_t kNodes = 120;
+/// From so many on they place the template.
+constexpr std::size_t kEnoughLandmarks = 6;
 
 Error cancelled() {
   return {ErrorCode::Cancelled, "the fit was cancelled", {}};
@@ -29,14 +31,6 @@ Places placesOf(const ReferenceModel& model) {
   Places places;
   for (const auto& [name, point] : model.landmarks) places[name] = position(*model.mesh, point);
   return places;
-}
-
-/// The nearest rotation.
-Eigen::Matrix3d rotationOf(const Eigen::Matrix3d& linear) {
-  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
-  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
-  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs[2] = -1;
-  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
 }
 
 class Fitter {
@@ -51,7 +45,7 @@ class Fitter {
     Target target = makeTarget(scan_);
     if (const Result<void> fine = checkSize(target); !fine) return fine.error();
     step("fit: placement");
-    const Placement placement = place(makeShape(mesh_.triangles(), mesh_.positions()), target);
+    const Placement placement = findPlacement(target);
     if (placement.scanIsInsideOut) {
       for (Eigen::Vector3d& n : target.normals) n = -n;
     }
@@ -59,8 +53,9 @@ class Fitter {
 
     step("fit: coarse");
     const Graph graph = makeGraph(mesh_, mesh_.positions(), kNodes);
-    CoarseProblem problem{mesh_.triangles(), graph, target, restShape(placement), {}, pins(), 1};
+    CoarseProblem problem{mesh_.triangles(), graph, target, placed(placement), {}, pins(), 1};
     problem.family = familyAround(problem.rest);
+    pose(placement, problem);
     problem.pinScale = 1 / (1 + std::pow(options_.landmarkError.mm(), 2));
     const std::optional<CoarseFit> coarse = fitCoarse(problem, progress_);
     if (!coarse) return cancelled();
@@ -70,6 +65,7 @@ class Fitter {
     if (!fine) return cancelled();
     const Expectation expected = expect(problem, *coarse);
     untangle(mesh_, expected, *fine);
+    uncross(mesh_, expected, *fine);
 
     step("fit: report");
     Result<ReferenceModel> named = withMesh(model_, scan_.name, mesh_.withPositions(*fine));
@@ -82,6 +78,11 @@ class Fitter {
         segmentOfPoints(mesh_.positions(), placesOf(model_));
     fit.report = judge({*fit.model.mesh, target, placement, expected, segments, options_.limits});
     fit.report.familySize = options_.family.size();
+    std::vector<double> misses;
+    for (const auto& [name, place] : options_.landmarks) {
+      misses.push_back((position(*fit.model.mesh, model_.landmarks.at(name)) - place).norm());
+    }
+    fit.report.landmarks = summarise(misses, std::vector<double>(misses.size(), 1.0));
     return fit;
   }
 
@@ -130,6 +131,15 @@ class Fitter {
                    fmt::format("the points of {} all lie in one place", scan_.name),
                    {}};
     }
+    constexpr double kLeast = 5;
+    constexpr double kMost = 20000;
+    if (own < kLeast || own > kMost) {
+      return Error{
+          ErrorCode::UnitsMissing,
+          fmt::format("the template {} is {:.4g} mm across: is its unit right? Give --units",
+                      model_.name, own),
+          {}};
+    }
     // Turned boxes differ in their diagonals, by 1.7 at most.
     constexpr double kTurned = 1.8;
     if (ratio > options_.limits.leastScale / kTurned &&
@@ -157,12 +167,45 @@ class Fitter {
         {}};
   }
 
-  [[nodiscard]] Shape restShape(const Placement& placement) const {
+  /// Landmarks that the template has too, its own and the scan's.
+  [[nodiscard]] std::pair<std::vector<Eigen::Vector3d>, std::vector<Eigen::Vector3d>> landmarks()
+      const {
+    std::pair<std::vector<Eigen::Vector3d>, std::vector<Eigen::Vector3d>> pairs;
+    for (const auto& [name, place] : options_.landmarks) {
+      pairs.first.push_back(position(mesh_, model_.landmarks.at(name)));
+      pairs.second.push_back(place);
+    }
+    return pairs;
+  }
+
+  [[nodiscard]] Placement findPlacement(const Target& target) const {
+    const Shape shape = makeShape(mesh_.triangles(), mesh_.positions());
+    if (options_.landmarks.size() < kEnoughLandmarks)
+      return place(shape, target, model_.symmetry.has_value());
+    const auto [own, wanted] = landmarks();
+    return placeByLandmarks(shape, target, own, wanted);
+  }
+
+  [[nodiscard]] Shape placed(const Placement& placement) const {
     std::vector<Eigen::Vector3d> positions;
     for (const Eigen::Vector3d& p : mesh_.positions()) {
       positions.push_back(placement.similarity.apply(p));
     }
     return makeShape(mesh_.triangles(), std::move(positions));
+  }
+
+  /// Takes the rest shape and what the family adds to it into the posture that landmarks say.
+  void pose(const Placement& placement, CoarseProblem& problem) const {
+    if (options_.landmarks.size() < kEnoughLandmarks) return;
+    Places own;
+    for (const auto& [name, p] : placesOf(model_)) own[name] = placement.similarity.apply(p);
+    std::optional<Posed> posed =
+        poseByLandmarks(mesh_, problem.rest.positions, own, options_.landmarks);
+    if (!posed) return;
+    problem.rest = makeShape(mesh_.triangles(), std::move(posed->positions));
+    for (std::vector<Eigen::Vector3d>& added : problem.family) {
+      for (std::size_t v = 0; v < added.size(); ++v) added[v] = posed->linear[v] * added[v];
+    }
   }
 
   [[nodiscard]] std::vector<std::vector<Eigen::Vector3d>> familyAround(const Shape& rest) const {
@@ -205,7 +248,7 @@ class Fitter {
     for (const Triangle& t : mesh_.triangles()) {
       Eigen::Matrix3d mean = Eigen::Matrix3d::Zero();
       for (const VertexId v : t) mean += expected.linear[v.index()];
-      expected.normals.push_back(rotationOf(mean) *
+      expected.normals.push_back(nearestRotation(mean) *
                                  faceCross(problem.rest.positions, t).stableNormalized());
     }
     return expected;

@@ -17,8 +17,17 @@
 namespace toile::fitting {
 namespace {
 
-/// A point of the fit farther than this from the scan, of the diagonal, has no scan near it.
+/// A point of the fit farther than this from the scan has no scan near it: of the diagonal, and
+/// what scans of any size leave between their points.
 constexpr double kMissing = 0.006;
+constexpr double kSpacing = 2;  // mm
+constexpr double kNoise = 1;    // mm
+/// A mirror image that lies so much better is what was scanned.
+constexpr double kMirrored = 0.8;
+/// A second placement that is not worse than this leaves a doubt.
+constexpr double kUnsure = 1.15;
+/// A region of which a twentieth is that many times the mean's limit off is told.
+constexpr double kRegionOff = 3;
 
 struct Foot {
   std::uint32_t face = 0;
@@ -63,6 +72,7 @@ class Judge {
     countFaults();
     report_.scale = fit_.placement.similarity.scale;
     report_.placementMargin = fit_.placement.margin;
+    report_.mirrorScore = fit_.placement.mirrorScore / std::max(fit_.placement.score, 1e-9);
     weighReasons();
     return std::move(report_);
   }
@@ -85,13 +95,19 @@ class Judge {
     report_.scanToFit = summarise(distances_, areas_);
   }
 
-  [[nodiscard]] bool isStray(std::size_t i) const {
-    return feet_[i].distance > fit_.limits.strayDistance.value() * diagonal_;
+  [[nodiscard]] bool isStray(std::size_t i) const { return feet_[i].distance > strayDistance(); }
+
+  [[nodiscard]] double strayDistance() const {
+    return kSpacing + fit_.limits.strayDistance.value() * diagonal_;
+  }
+  [[nodiscard]] double meanLimit() const {
+    return kNoise + fit_.limits.meanDistance.value() * diagonal_;
   }
 
   void measureFit() {
     shape_ = makeShape(fit_.mesh.triangles(), fit_.mesh.positions());
     const std::size_t count = shape_.positions.size();
+    const double gap = kSpacing + kMissing * diagonal_;
     isMissing_.assign(count, 0);
     std::vector<Eigen::Vector3d> back(count);
     std::vector<double> distances(count);
@@ -102,7 +118,7 @@ class Judge {
       const double above = n.dot(p - fit_.target.points[near.point]);
       distances[v] = std::abs(above);
       back[v] = p - above * n;
-      isMissing_[v] = std::sqrt(near.squaredDistance) > kMissing * diagonal_ ? 1 : 0;
+      isMissing_[v] = std::sqrt(near.squaredDistance) > gap ? 1 : 0;
     }
     const std::vector<Foot> feet = feetOn(fit_.mesh, back);
     std::vector<double> kept, areas, trips;
@@ -166,13 +182,13 @@ class Judge {
     add(report_.strayShare / limits.strayShare.value(), "fit-stray-scan",
         fmt::format("{:.0f} % of the scan lies more than {:.0f} mm from the fit: another kind of "
                     "model, another posture, or more than one model in the file",
-                    100 * report_.strayShare, limits.strayDistance.value() * diagonal_));
+                    100 * report_.strayShare, strayDistance()));
     add(report_.missingShare / limits.missingShare.value(), "fit-missing-scan",
         fmt::format("for {:.0f} % of the model there is no scan{}; the scan is not whole",
                     100 * report_.missingShare, worstRegions()));
-    add(report_.scanToFit.mean / (limits.meanDistance.value() * diagonal_), "fit-distance",
+    add(report_.scanToFit.mean / meanLimit(), "fit-distance",
         fmt::format("the scan lies {:.1f} mm from the fit on average; {:.1f} mm is the limit",
-                    report_.scanToFit.mean, limits.meanDistance.value() * diagonal_));
+                    report_.scanToFit.mean, meanLimit()));
     const double flipped =
         static_cast<double>(report_.flippedFaces) / static_cast<double>(fit_.mesh.faceCount());
     add(flipped / limits.flippedShare.value(), "fit-flipped-faces",
@@ -182,9 +198,36 @@ class Judge {
         fmt::format("the scan is {:.2f} times as large as the template: another unit, or another "
                     "kind of model",
                     scale));
+    add(kMirrored / std::max(report_.mirrorScore, 1e-9), "fit-mirrored",
+        "the scan looks like the mirror image of the template: a left one for a right one?");
+    add(fit_.placement.scanIsInsideOut && !fit_.target.isCloud ? 2 : 0, "fit-inside-out",
+        "the faces of the scan look inwards: it was mirrored, or its faces are turned; "
+        "`toile check --repair` tells");
     std::stable_sort(reasons_.begin(), reasons_.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     for (auto& [excess, reason] : reasons_) report_.reasons.push_back(std::move(reason));
+    if (report_.placementMargin > 0 && report_.placementMargin < kUnsure) {
+      report_.findings.push_back(
+          {"fit-placement-unsure",
+           fmt::format("another placement lies nearly as well ({:.2f} times as far off): see that "
+                       "front and back, left and right are right",
+                       report_.placementMargin),
+           {}});
+    }
+    for (const FitRegion& region : report_.regions) {
+      if (region.scanToFit.percentile95 < kRegionOff * meanLimit()) continue;
+      report_.findings.push_back(
+          {"fit-region-off",
+           fmt::format(
+               "{}: a twentieth of the scan lies {:.0f} mm off or more; measures near it are "
+               "not to be trusted, landmarks help",
+               region.name, region.scanToFit.percentile95),
+           {}});
+    }
+    if (report_.crossings > 0) {
+      report_.findings.push_back(
+          {"fit-crossings", fmt::format("{} pairs of faces cross", report_.crossings), {}});
+    }
   }
 
   /// " (worst: left shank, left foot)" of regions that mostly are not there.

@@ -14,6 +14,8 @@ namespace {
 
 /// Distances count no more than this share of the scan's diagonal.
 constexpr double kCapShare = 0.055;
+/// A search that moves less, of the diagonal, is done.
+constexpr double kSettled = 1e-5;
 
 struct Cloud {
   Eigen::Vector3d centre;
@@ -80,7 +82,12 @@ class Matcher {
       if (from.size() < 10) break;
       const double median = std::max(quantile(kept, 0.5), 1e-9 * target_.diagonal);
       for (const double d : kept) weights.push_back(1 / (1 + d * d / (median * median)));
-      at = bestSimilarity(from, to, weights);
+      const Similarity next = bestSimilarity(from, to, weights);
+      const double moved =
+          ((next.scale * next.rotation - at.scale * at.rotation).norm() * target_.diagonal +
+           (next.apply(from.front()) - at.apply(from.front())).norm());
+      at = next;
+      if (moved < kSettled * target_.diagonal) break;
     }
     return at;
   }
@@ -170,7 +177,6 @@ Search search(const Shape& shape, const Target& target, const Cloud& theirs) {
       result.secondScore = std::min(result.secondScore, scores[i]);
     }
   }
-  result.best = matcher.improve(result.best, 3000, 30, 0.5);
   return result;
 }
 
@@ -207,18 +213,47 @@ Similarity bestSimilarity(const std::vector<Eigen::Vector3d>& from,
   return result;
 }
 
-Placement place(const Shape& shape, const Target& target) {
+Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& linear) {
+  const Eigen::JacobiSVD<Eigen::Matrix3d> svd(linear, Eigen::ComputeFullU | Eigen::ComputeFullV);
+  Eigen::Vector3d signs = Eigen::Vector3d::Ones();
+  if ((svd.matrixU() * svd.matrixV().transpose()).determinant() < 0) signs[2] = -1;
+  return svd.matrixU() * signs.asDiagonal() * svd.matrixV().transpose();
+}
+
+Placement place(const Shape& shape, const Target& target, bool isSymmetric) {
   const Cloud theirs = principalAxes(target.points, target.area);
   const Search plain = search(shape, target, theirs);
-  Shape mirrored = shape;
-  for (Eigen::Vector3d& p : mirrored.positions) p.x() = -p.x();
-  for (Eigen::Vector3d& n : mirrored.normals) n.x() = -n.x();
+  const Matcher matcher(shape, target);
   Placement placement;
-  placement.similarity = plain.best;
-  placement.score = plain.bestScore;
+  placement.similarity = matcher.improve(plain.best, 3000, 30, 0.5);
+  placement.score = placement.mirrorScore = plain.bestScore;
   placement.margin = plain.secondScore / std::max(plain.bestScore, 1e-12);
-  placement.mirrorScore = search(mirrored, target, theirs).bestScore;
-  placement.scanIsInsideOut = Matcher(shape, target).meanAgreement(plain.best) < 0;
+  placement.scanIsInsideOut = matcher.meanAgreement(plain.best) < 0;
+  if (!isSymmetric) {
+    Shape mirrored = shape;
+    for (Eigen::Vector3d& p : mirrored.positions) p.x() = -p.x();
+    for (Eigen::Vector3d& n : mirrored.normals) n.x() = -n.x();
+    placement.mirrorScore = search(mirrored, target, theirs).bestScore;
+  }
+  return placement;
+}
+
+Placement placeByLandmarks(const Shape& shape, const Target& target,
+                           const std::vector<Eigen::Vector3d>& own,
+                           const std::vector<Eigen::Vector3d>& wanted) {
+  const std::vector<double> weights(own.size(), 1.0);
+  const auto miss = [&](const std::vector<Eigen::Vector3d>& from, const Similarity& at) {
+    double sum = 0;
+    for (std::size_t i = 0; i < from.size(); ++i) sum += (at.apply(from[i]) - wanted[i]).norm();
+    return sum / (static_cast<double>(from.size()) * kCapShare * target.diagonal);
+  };
+  std::vector<Eigen::Vector3d> mirrored = own;
+  for (Eigen::Vector3d& p : mirrored) p.x() = -p.x();
+  Placement placement;
+  placement.similarity = bestSimilarity(own, wanted, weights);
+  placement.score = miss(own, placement.similarity);
+  placement.mirrorScore = miss(mirrored, bestSimilarity(mirrored, wanted, weights));
+  placement.scanIsInsideOut = Matcher(shape, target).meanAgreement(placement.similarity) < 0;
   return placement;
 }
 

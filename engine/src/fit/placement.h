@@ -28,11 +28,14 @@ struct Similarity {
                                         const std::vector<Eigen::Vector3d>& to,
                                         const std::vector<double>& weights);
 
+/// The rotation nearest to a linear map.
+[[nodiscard]] Eigen::Matrix3d nearestRotation(const Eigen::Matrix3d& linear);
+
 struct Placement {
   Similarity similarity;  ///< template to scan
   double score = 0;       ///< 0 = lies on it, 1 = nothing is near; of the best placement
   double margin = 0;      ///< score of the second best, over this
-  /// Score of the best placement of the template's mirror image.
+  /// Score of the best placement of the template's mirror image; the same for a symmetric one.
   double mirrorScore = 0;
   bool scanIsInsideOut = false;  ///< its normals point against the template's
 };
@@ -40,6 +43,11 @@ struct Placement {
 /// Places the template on the scan from any start: principal axes both ways round, then iterated
 /// closest points from each, with scale.
 /// @see Besl and McKay, "A Method for Registration of 3-D Shapes", IEEE PAMI 14(2), 1992.
-[[nodiscard]] Placement place(const Shape& shape, const Target& target);
+[[nodiscard]] Placement place(const Shape& shape, const Target& target, bool isSymmetric);
+
+/// By landmarks alone, of the template and of the scan.
+[[nodiscard]] Placement placeByLandmarks(const Shape& shape, const Target& target,
+                                         const std::vector<Eigen::Vector3d>& own,
+                                         const std::vector<Eigen::Vector3d>& wanted);
 
 }  // namespace toile::fitting

@@ -67,10 +67,15 @@ std::string writeFitReport(const Fit& fit) {
                {"crossings", r.crossings},
                {"scale", r.scale},
                {"placementMargin", r.placementMargin},
+               {"mirrorScore", r.mirrorScore},
                {"familySize", r.familySize},
+               {"findings", Json::array()},
                {"regions", Json::array()}};
   for (const Finding& reason : r.reasons) {
     json["reasons"].push_back({{"code", reason.code}, {"message", reason.message}});
+  }
+  for (const Finding& finding : r.findings) {
+    json["findings"].push_back({{"code", finding.code}, {"message", finding.message}});
   }
   for (const FitRegion& region : r.regions) {
     json["regions"].push_back({{"name", region.name},

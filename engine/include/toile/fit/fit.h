@@ -18,8 +18,8 @@ namespace toile {
 /// What a fit must keep to be called good; the defaults suit bodies and whatever is made for them.
 /// Lengths given as ratios are of the diagonal of the fitted model's box (a body: about 1.9 m).
 struct FitLimits {
-  Ratio meanDistance = Ratio::of(0.0016);   ///< scan to fit, where the scan is no stray part: 3 mm
-  Ratio strayDistance = Ratio::of(0.012);   ///< a scan point farther off is stray: 23 mm
+  Ratio meanDistance = Ratio::of(0.001);    ///< scan to fit, without stray parts; and 1 mm of noise
+  Ratio strayDistance = Ratio::of(0.012);   ///< and 2 mm: a scan point farther off is stray
   Ratio strayShare = Ratio::percent(2);     ///< of the scan's area that may be stray
   Ratio missingShare = Ratio::percent(12);  ///< of the fit's area that may have no scan near it
   Ratio flippedShare = Ratio::of(0.001);    ///< of the triangles that may be turned inside out
@@ -31,8 +31,9 @@ struct FitOptions {
   /// Other shapes on the template's connectivity: what such models usually differ in. Without them
   /// smooth limbs slide by a centimetre or so along themselves, which no distance shows.
   std::vector<std::shared_ptr<const Mesh>> family = {};
-  /// Places on the scan, mm, by names of the template's landmarks. Needed for postures that differ
-  /// much from the template's; for such, a joint needs three places around it.
+  /// Places on the scan, mm, by names of the template's landmarks. Six or more place the template.
+  /// Needed for postures that differ much from the template's: a segment of the body then needs
+  /// three that lie on it or at its joints.
   std::map<std::string, Eigen::Vector3d> landmarks = {};
   Length landmarkError = Length::mm(5);  ///< how far they may be off: less weighs more
   FitLimits limits = {};
@@ -52,7 +53,8 @@ struct FitRegion {
 struct FitReport {
   /// No reason stands against it. A fit with reasons must not be used without looking at it.
   [[nodiscard]] bool isOk() const { return reasons.empty(); }
-  std::vector<Finding> reasons;  ///< limits that were missed, in words; the worst first
+  std::vector<Finding> reasons;   ///< limits that were missed, in words; the worst first
+  std::vector<Finding> findings;  ///< no failure, but worth knowing
 
   DistanceSummary scanToFit;  ///< of all scan points that are not stray
   DistanceSummary fitToScan;  ///< of all vertices that have scan near them
@@ -65,6 +67,9 @@ struct FitReport {
   DistanceSummary roundTrip;   ///< of fit -> scan -> fit, along the surface
   double scale = 1;            ///< of the scan to the template as given
   double placementMargin = 0;  ///< how much worse the second best placement is: 1 = no better
+  /// How well the mirror image of the template would lie, over how well the template does: below 1
+  /// better. 1 for symmetric templates.
+  double mirrorScore = 1;
   std::size_t familySize = 0;
 };
 
