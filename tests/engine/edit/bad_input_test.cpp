@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "support/edit_support.h"
 #include "support/curve_checks.h"
+#include "support/edit_support.h"
 #include "support/result_printing.h"
 #include "toile/edit/draw.h"
 #include "toile/edit/fair.h"
@@ -77,8 +77,7 @@ TEST_F(BadInput, StrokesThatAreNone) {
       drawStroke(body, view, std::vector<StrokeSample>{{{0, 0}, 0, 1}, {{kNan, 0}, 0, 1}}),
       ErrorCode::InvalidArgument);
   expectRefused(
-      drawStroke(body, view,
-                 std::vector<StrokeSample>{{{5000, 0}, 0, 1}, {{5100, 0}, 0, 1}}),
+      drawStroke(body, view, std::vector<StrokeSample>{{{5000, 0}, 0, 1}, {{5100, 0}, 0, 1}}),
       ErrorCode::LeavesSilhouette);
 }
 
@@ -93,8 +92,9 @@ TEST_F(BadInput, AThousandPoints) {
   expectFine(drawn->document);
   const auto handles = handlesOf(drawn->document, drawn->curves[0]);
   ASSERT_TRUE(handles) << handles.error();
-  const auto moved = moveHandle(drawn->document, drawn->curves[0], {}, 500,
-                                near(body, placeOf(body, (*handles)[500].point) + Vector3d(3, 0, 3)));
+  const auto moved =
+      moveHandle(drawn->document, drawn->curves[0], {}, 500,
+                 near(body, placeOf(body, (*handles)[500].point) + Vector3d(3, 0, 3)));
   ASSERT_TRUE(moved) << moved.error();
   expectFine(*moved);
 }
@@ -109,10 +109,10 @@ TEST_F(BadInput, TwentyTimesThroughOneFace) {
   const auto tangled = drawShortest(body, zigzag);
   ASSERT_TRUE(tangled) << tangled.error();
   expectFine(tangled->document);
-  const auto crossed = drawShortest(tangled->document,
-                                    std::vector<SurfacePoint>{
-                                        makeSurfacePoint(mesh, FaceId(500), {1, 8, 18}),
-                                        makeSurfacePoint(mesh, FaceId(500), {20, 8, 1})});
+  const auto crossed =
+      drawShortest(tangled->document,
+                   std::vector<SurfacePoint>{makeSurfacePoint(mesh, FaceId(500), {1, 8, 18}),
+                                             makeSurfacePoint(mesh, FaceId(500), {20, 8, 1})});
   ASSERT_TRUE(crossed) << crossed.error();
   const auto shared = shareCrossings(crossed->document);
   ASSERT_TRUE(shared) << shared.error();

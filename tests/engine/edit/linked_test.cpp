@@ -46,8 +46,7 @@ void expectSmoothOnTheMiddle(const Document& document) {
   EXPECT_NEAR(placeOf(document, half.points.front()).x(), 0, 1e-6);
   const auto along = [&](const SurfacePath& path) -> Vector3d {
     const double reach = 4 / length(mesh, path);
-    return position(mesh, pointAtFraction(mesh, path, reach)) -
-           position(mesh, path.points.front());
+    return position(mesh, pointAtFraction(mesh, path, reach)) - position(mesh, path.points.front());
   };
   const Vector3d a = along(half), b = along(image);
   EXPECT_GT(std::atan2(a.cross(b).norm(), a.dot(b)), 155 * EIGEN_PI / 180);
