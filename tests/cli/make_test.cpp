@@ -60,11 +60,13 @@ TEST(Make, WritesEveryFileOfTheSample) {
   const ProgramResult result = toile({"make", kSleeve, "-o", out});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, testing::HasSubstr("2 pieces"));
-  EXPECT_THAT(namesIn(out),
-              testing::ElementsAre("pattern.dxf", "pattern.pdf", "pattern.svg",
-                                   "pieces/Under-sleeve.obj", "pieces/Under-sleeve.ply",
-                                   "pieces/Upper-sleeve.obj", "pieces/Upper-sleeve.ply",
-                                   "preview.png", "report.html", "report.json", "strain.svg"));
+  EXPECT_THAT(
+      namesIn(out),
+      testing::ElementsAre("laser.dxf", "lengths.csv", "pattern.dxf", "pattern.pdf", "pattern.plt",
+                           "pattern.svg", "pieces/Under-sleeve.obj", "pieces/Under-sleeve.ply",
+                           "pieces/Upper-sleeve.obj", "pieces/Upper-sleeve.ply", "preview.png",
+                           "report.html", "report.json", "seams.json", "sewing.html", "sewing.pdf",
+                           "strain.svg"));
 }
 
 TEST(Make, IsByteForByteTheSameWithOneAndTwoThreads) {
