@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <map>
@@ -16,6 +17,22 @@ using Cell = std::pair<int, int>;
 
 int lattice(double mm) {
   return static_cast<int>(std::lround(mm / kLatticeMm));
+}
+
+/// Says where on the model a piece of its lattice lies.
+void putOnModel(Piece& piece, const Mesh& model) {
+  for (const Eigen::Vector3d& p : piece.mesh->positions()) {
+    const auto at = std::find(model.positions().begin(), model.positions().end(), p);
+    piece.onModel.values().push_back(
+        {VertexId(static_cast<std::size_t>(at - model.positions().begin()))});
+  }
+  for (const Triangle& triangle : piece.mesh->triangles()) {
+    Triangle on;
+    for (std::size_t k = 0; k < 3; ++k) on[k] = std::get<VertexId>(piece.onModel[triangle[k]].at);
+    const auto at = std::find(model.triangles().begin(), model.triangles().end(), on);
+    piece.sourceFace.values().push_back(
+        FaceId(static_cast<std::size_t>(at - model.triangles().begin())));
+  }
 }
 
 }  // namespace
@@ -156,6 +173,7 @@ Pattern makeTwoPiecePattern(double allowanceMm) {
   pattern.curves = {drawn("side", CurveKind::Seam, edgePath(*model.mesh, sideWay))};
   for (const HandMadePiece& plan : {ell, panel}) {
     pattern.cut.pieces.push_back(makeHandMadePiece(plan, 500, 400));
+    putOnModel(pattern.cut.pieces.back(), *model.mesh);
     pattern.flats.push_back(std::make_shared<const FlatPiece>(flatOf(pattern.cut.pieces.back())));
     pattern.failures.emplace_back();
     pattern.pieceIndex.push_back(static_cast<std::uint32_t>(pattern.pieceIndex.size()));

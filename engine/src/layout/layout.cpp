@@ -95,7 +95,14 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
           ErrorCode::InvalidArgument,
           fmt::format("piece \"{}\" has no flat piece or no cut line to lay out", pattern[i].name),
           {Element::piece(pattern[i].id)}};
-    const PlaceOnMap place = placeOnMap(cut.pieces[index], *flats[index], *model.mesh, *map);
+    const Piece& onModel = cut.pieces[index];
+    if (onModel.sourceFace.size() != onModel.mesh->faceCount() ||
+        onModel.onModel.size() != onModel.mesh->vertexCount())
+      return Error{
+          ErrorCode::InvalidArgument,
+          fmt::format("piece \"{}\" does not say where on the model it lies", pattern[i].name),
+          {Element::piece(pattern[i].id)}};
+    const PlaceOnMap place = placeOnMap(onModel, *flats[index], *model.mesh, *map);
     PlacedPiece piece;
     piece.piece = i;
     piece.side = map->charts[place.chart].side;
