@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "support/meshes.h"
+#include "support/result_printing.h"
 #include "support/run_program.h"
 #include "toile/mesh/mesh_file.h"
 

@@ -260,7 +260,7 @@ INSTANTIATE_TEST_SUITE_P(
         Damage{"\"fabric\": \"shell\"", "\"twin\": {\"of\": \"front\", \"mode\": \"same\"}",
                "/pieces/0/twin/mode", "identical"},
         Damage{"\"fabric\": \"shell\"", "\"grain\": {\"along\": \"w\"}", "/pieces/0/grain/along",
-               "\"z\""},
+               "is not known here"},
         Damage{"\"thickness\": \"0.8mm\"", "\"colour\": \"red\"", "/fabrics/0/colour", "#1a2b3c"},
         Damage{"\"notchSpacing\": \"150mm\"", "\"notchSpacing\": \"0mm\"", "/finish/notchSpacing",
                "above 0mm"},

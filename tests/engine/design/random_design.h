@@ -219,7 +219,7 @@ class RandomDesign {
     if (!design.fabrics.empty() && chance()) piece.fabric = design.fabrics.front().id;
     if (chance()) piece.ease = ease();
     if (chance()) piece.develop = developSetting();
-    if (chance()) piece.grain = {Grain::Axis::X, Angle::rad(fraction()), unknown()};
+    if (chance()) piece.grain = {Grain::Axis::X, Angle::radians(fraction()), unknown()};
     if (chance() && !design.pieces.empty()) {
       piece.twin = {design.pieces.front().id, TwinMode::Mean, unknown()};
     }
