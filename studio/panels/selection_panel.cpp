@@ -111,6 +111,7 @@ void SelectionPanel::rebuild() {
   length_ = nullptr;
   if (content_ != nullptr) {
     content_->hide();
+    content_->setParent(nullptr);
     content_->deleteLater();
   }
   content_ = new QWidget(this);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "document/design_store.h"
+#include "toile/cut/cut.h"
 #include "tools/picking.h"
 #include "tools/tool.h"
 #include "viewport/camera.h"

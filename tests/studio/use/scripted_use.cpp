@@ -138,6 +138,9 @@ int use(MainWindow& window, const QString& toile, const std::string& pictures) {
   hand.folder = pictures;
   Session& session = hand.session();
   window.viewport().setMotion(false);
+  QObject::connect(&session, &Session::told, [](const QString& sentence) {
+    std::printf("told: %s\n", sentence.toLocal8Bit().constData());
+  });
   window.newWork();
   hand.settle();
   require(session.document().design->curves.empty(), "the body is empty at the start");
@@ -218,14 +221,18 @@ int use(MainWindow& window, const QString& toile, const std::string& pictures) {
   window.viewport().fitAll();
   hand.command("tool-dart");
   const auto& points = session.lines().find(side)->points;
-  const Vector3d mouth = points[points.size() / 2];
-  hand.click(mouth);
-  hand.click(front(45, mouth.z() + 5));
+  // At the bust: a dart opens only where the surface is round, elsewhere its sides would overlap.
+  hand.click(points[points.size() / 10]);
+  hand.click(front(65, chest + 5));
   const auto& curves = session.document().design->curves;
   require(std::ranges::any_of(curves, [](const auto& c) { return c.kind == CurveKind::Dart; }),
           "the dart is drawn");
   hand.settle();
-  require(session.pattern()->pieces.size() >= 1, "the pattern has the piece");
+  if (const auto& error = session.patternError()) std::printf("%s\n", error->message.c_str());
+  for (const auto& failure : session.pattern()->failures) {
+    if (failure) std::printf("%s\n", failure->message.c_str());
+  }
+  require(!session.pattern()->pieces.empty(), "the pattern has the piece");
   hand.picture("dart");
 
   // ---- back to the start and forth again
