@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "design/mirror.h"
+#include "model/mirror.h"
 
 namespace toile {
 namespace {
@@ -14,16 +14,14 @@ constexpr double kSameEnd = 10;
 
 class LineMirror {
  public:
-  LineMirror(const ReferenceModel& model, double keep)
-      : model_(model), keep_(keep), linker_(model.mesh) {}
+  LineMirror(const ReferenceModel& model, double keep) : model_(model), keep_(keep) {}
 
-  void makeSymmetric(SurfacePath& path) {
-    const Result<SurfacePath> mirrored = detail::mirrored(model_, linker_, path);
-    if (!mirrored) return;
+  void makeSymmetric(SurfacePath& path) const {
+    const SurfacePath mirrored = detail::mirrored(*model_.mesh, model_.symmetry->partner, path);
     const std::size_t count = path.points.size();
     std::vector<std::size_t> middle;
     for (std::size_t i = 0; i < count; ++i) {
-      if (distance(path.points[i], mirrored->points[i]) < kMergeDistanceMm) middle.push_back(i);
+      if (distance(path.points[i], mirrored.points[i]) < kMergeDistanceMm) middle.push_back(i);
     }
     std::size_t begin = 0, end = 0;  // of the half that stays; around a closed path
     if (path.closed) {
@@ -36,7 +34,7 @@ class LineMirror {
       }
     } else {
       if (middle.size() != 1 || middle[0] == 0 || middle[0] + 1 == count) return;
-      if (distance(path.points.front(), mirrored->points.back()) > kSameEnd) return;
+      if (distance(path.points.front(), mirrored.points.back()) > kSameEnd) return;
       const bool isFirst = sideOf(path, 0, middle[0]) > 0;
       begin = isFirst ? 0 : middle[0];
       end = isFirst ? middle[0] : count - 1;
@@ -47,12 +45,12 @@ class LineMirror {
       for (std::size_t i = begin; i < end; ++i) add(path, i, i, whole);
     };
     const auto addImage = [&] {  // backward
-      for (std::size_t i = end; i > begin; --i) add(*mirrored, i, i - 1, whole);
+      for (std::size_t i = end; i > begin; --i) add(mirrored, i, i - 1, whole);
     };
     if (path.closed || begin == 0) {
       addHalf();
       addImage();
-      if (!path.closed) whole.points.push_back(mirrored->points[begin]);
+      if (!path.closed) whole.points.push_back(mirrored.points[begin]);
     } else {
       addImage();
       addHalf();
@@ -83,7 +81,6 @@ class LineMirror {
 
   const ReferenceModel& model_;
   double keep_;
-  GeodesicLinker linker_;
 };
 
 }  // namespace
@@ -100,7 +97,7 @@ void makeLinesSymmetric(const Document& document, std::vector<PlacedCurve>& curv
   if (!anchor) return;
   const double side =
       model.symmetry->normal.dot(position(*model.mesh, *anchor)) - model.symmetry->offset;
-  LineMirror mirror(model, side < 0 ? -1 : 1);
+  const LineMirror mirror(model, side < 0 ? -1 : 1);
   for (PlacedCurve& curve : curves) mirror.makeSymmetric(curve.path);
 }
 

@@ -7,7 +7,7 @@
 #include <map>
 #include <utility>
 
-#include "design/mirror.h"
+#include "model/mirror.h"
 
 namespace toile {
 namespace {
