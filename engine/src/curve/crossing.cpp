@@ -15,6 +15,8 @@ using Eigen::Vector3d;
 
 /// Segments as good as parallel: the sine of their angle in weights.
 constexpr double kParallel = 1e-12;
+/// A point this near to a segment, in weights, lies on it.
+constexpr double kOnLine = 1e-9;
 /// How far past its ends a segment may be met, in parts of itself: rounding of a touching end.
 constexpr double kPastEnd = 1e-9;
 
@@ -93,14 +95,14 @@ class Finder {
     const Vector2d u = flat(p2) - flat(p), v = flat(q2) - flat(q), w = flat(q) - flat(p);
     const double determinant = cross(u, v);
     if (std::abs(determinant) <= kParallel * u.norm() * v.norm()) {
-      // On one line: the ends of the common part.
-      if (std::abs(cross(u, w)) > 1e-9 * u.norm()) return;
+      // On one line: the ends of the common part. A segment without length is one end.
       const auto onOther = [&](const SurfacePoint& s, bool ofA, double own) {
         const Vector2d& d = ofA ? v : u;
         const Vector2d from = flat(s) - (ofA ? flat(q) : flat(p));
-        const double t = d.squaredNorm() > 0 ? from.dot(d) / d.squaredNorm() : -1;
+        const double t = d.squaredNorm() > 0 ? from.dot(d) / d.squaredNorm() : 0;
         if (t < -kPastEnd || t > 1 + kPastEnd) return;
         const double other = std::clamp(t, 0.0, 1.0);
+        if ((from - other * d).norm() > kOnLine) return;
         if (ofA) {
           add(arcA_.at(i, own), arcB_.at(j, other), s);
         } else {

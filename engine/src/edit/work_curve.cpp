@@ -176,6 +176,17 @@ bool isSameWay(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b) {
 }  // namespace
 
 void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve) {
+  // A closed curve has three data points at least.
+  while (curve.closed && curve.data.size() < 3 && curve.linkCount() == curve.data.size()) {
+    const std::vector<double> arcs = arcsOf(mesh, curve);
+    std::size_t longest = 0;
+    for (std::size_t i = 1; i < curve.linkCount(); ++i) {
+      if (arcs[i + 1] - arcs[i] > arcs[longest + 1] - arcs[longest]) longest = i;
+    }
+    const std::size_t before = curve.data.size();
+    insertData(mesh, curve, 0.5 * (arcs[longest] + arcs[longest + 1]));
+    if (curve.data.size() == before) break;
+  }
   for (int round = 0; round < kMostHalvings; ++round) {
     std::vector<double> halves;
     const std::vector<double> arcs = arcsOf(mesh, curve);
@@ -197,9 +208,21 @@ bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index, const Surf
     const bool isFrom = i == index, isTo = (i + 1) % curve.data.size() == index;
     if (!isFrom && !isTo) continue;
     SurfacePath link = curve.links[i];
-    if (isFrom) link.points.front() = point;
-    if (isTo) link.points.back() = point;
-    if (!isValid(mesh, link)) return false;
+    // Rounding may have put the point just into the next face.
+    const auto refit = [&](const SurfacePoint& neighbour, FaceId& face) {
+      if (!touches(mesh, point, face)) face = commonFace(mesh, neighbour, point);
+    };
+    if (isFrom) {
+      link.points.front() = point;
+      refit(link.points[1], link.faceOfSegment.front());
+    }
+    if (isTo) {
+      link.points.back() = point;
+      refit(link.points[link.points.size() - 2], link.faceOfSegment.back());
+    }
+    const bool isWhole = std::all_of(link.faceOfSegment.begin(), link.faceOfSegment.end(),
+                                     [](FaceId face) { return face.isValid(); });
+    if (!isWhole || !isValid(mesh, link)) return false;
     made.emplace_back(i, std::move(link));
   }
   for (auto& [i, link] : made) curve.links[i] = std::move(link);

@@ -104,6 +104,22 @@ TEST(Meetings, OfTwoLinesOnAGrid) {
   EXPECT_EQ(findSelfMeetings(*mesh, *linker.linkAll(eight, true)).size(), 1U);
 }
 
+// A segment without length lies on one line with everything, but does not meet it for that.
+TEST(Meetings, SegmentsWithoutLengthMeetNothingElse) {
+  const Mesh mesh = test::icosphere(100, 1);
+  const FaceId face(5);
+  const auto at = [&](double a, double b, double c) {
+    return makeSurfacePoint(mesh, face, {a, b, c});
+  };
+  const SurfacePath line{{at(6, 1, 1), at(1, 6, 1)}, {face}};
+  const SurfacePath still{{at(1, 1, 4), at(1, 1, 4), at(1, 2, 8)}, {face, face}};
+  EXPECT_TRUE(findMeetings(mesh, line, still).empty());
+  EXPECT_TRUE(findMeetings(mesh, still, line).empty());
+  const SurfacePath on{{at(3, 3, 1), at(3, 3, 1), at(1, 1, 4)}, {face, face}};
+  const SurfacePath through{{at(3, 3, 1), at(6, 1, 1)}, {face}};
+  EXPECT_EQ(findMeetings(mesh, through, on).size(), 1U);
+}
+
 TEST(Curvature, OfCirclesOnAPlaneAndABall) {
   const auto plane = std::make_shared<const Mesh>(test::irregularGrid(40, 40, 5));
   const SurfaceIndex index(plane);
