@@ -3,7 +3,7 @@
 
 #include <algorithm>
 
-#include "design/mirror.h"
+#include "model/mirror.h"
 #include "toile/curve/crossing.h"
 
 namespace toile::detail {

@@ -4,7 +4,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 
-#include "design/mirror.h"
+#include "model/mirror.h"
 #include "toile/curve/crossing.h"
 
 namespace toile::detail {
