@@ -51,9 +51,9 @@ TEST(Map, RefusesWhatItCannotDo) {
   EXPECT_EQ(gif.status, 2);
   EXPECT_THAT(gif.err, HasSubstr(".png, .svg or .json"));
   const ProgramResult border =
-      map({"builtin:torso@1", "--borders", "wasit", "-o", folder.path() / "a.png"});
+      map({"builtin:torso@1", "--borders", "wasit_girth", "-o", folder.path() / "a.png"});
   EXPECT_EQ(border.status, 1);
-  EXPECT_THAT(border.err, HasSubstr("did you mean waist?"));
+  EXPECT_THAT(border.err, HasSubstr("did you mean \"waist_girth\"?"));
 }
 
 }  // namespace

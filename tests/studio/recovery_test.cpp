@@ -32,7 +32,8 @@ TEST(Recovery, WorkOfAKilledProgramIsFoundAndOfALivingOneIsNot) {
     for (;;) pause();
   }
   const Recovery mine(path);
-  for (int i = 0; i < 100 && std::distance(std::filesystem::directory_iterator(path), {}) < 4; ++i) {
+  for (int i = 0; i < 100 && std::distance(std::filesystem::directory_iterator(path), {}) < 4;
+       ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(50));
   }
   EXPECT_FALSE(mine.findLeftWork()) << "its program lives";

@@ -97,9 +97,8 @@ std::vector<StrainSpot> findWorst(const Piece& piece, const FlatPiece& flat,
     }
     if (worst) spots.push_back(*worst);
   }
-  std::stable_sort(spots.begin(), spots.end(), [](const StrainSpot& a, const StrainSpot& b) {
-    return rankOf(a) > rankOf(b);
-  });
+  std::stable_sort(spots.begin(), spots.end(),
+                   [](const StrainSpot& a, const StrainSpot& b) { return rankOf(a) > rankOf(b); });
   double area = 0;
   for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) area += piece.mesh->area(FaceId(f));
   const double apart = kApart * std::sqrt(area);
@@ -181,11 +180,10 @@ PieceStrain measureStrain(const Document& document, const Piece& piece, const Fl
     result.faces[FaceId(f)] = strain;
     const double area = mesh.area(FaceId(f));
     total += area;
-    const bool isOver =
-        std::any_of(kStrainKinds.begin(), kStrainKinds.end(), [&](StrainKind kind) {
-          const std::optional<double> limit = result.limits.of(kind);
-          return limit && strain.of(kind) > *limit;
-        });
+    const bool isOver = std::any_of(kStrainKinds.begin(), kStrainKinds.end(), [&](StrainKind kind) {
+      const std::optional<double> limit = result.limits.of(kind);
+      return limit && strain.of(kind) > *limit;
+    });
     if (isOver) over += area;
   }
   result.overLimit = total > 0 ? over / total : 0;

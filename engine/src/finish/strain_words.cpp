@@ -81,9 +81,9 @@ std::string byEdge(const Design& design, const Piece& piece, const FlatPiece& fl
   const double height = high > low ? (place.y() - low) / (high - low) : 0.5;
   const char* third = height > 2.0 / 3 ? "upper" : height < 1.0 / 3 ? "lower" : "middle";
   const std::string name = curveInWords(design, curve);
-  return nearest < 1 ? fmt::format("on {}, in the {} third", name, third)
-                     : fmt::format("{} from {}, in the {} third", distanceInWords(nearest), name,
-                                   third);
+  return nearest < 1
+             ? fmt::format("on {}, in the {} third", name, third)
+             : fmt::format("{} from {}, in the {} third", distanceInWords(nearest), name, third);
 }
 
 }  // namespace

@@ -31,8 +31,7 @@ Cloth makeCloth(const Matrix2d& map, const Vector2d& grain = {0, 1}) {
   const Mesh sheet = heightField(16, 14, 10, [](double, double) { return 0.0; });
   Cloth cloth;
   cloth.document.design = std::make_shared<const Design>();
-  cloth.document.model =
-      std::make_shared<const ReferenceModel>(makeReferenceModel("sheet", sheet));
+  cloth.document.model = std::make_shared<const ReferenceModel>(makeReferenceModel("sheet", sheet));
   cloth.piece = patchOf(sheet);
   const Eigen::JacobiSVD<Matrix2d> svd(map);
   cloth.flat.position = VertexData<Vector2d>(sheet.vertexCount(), Vector2d::Zero());
@@ -84,8 +83,8 @@ TEST(Strain, OfAShearedSheetIsTheTangentOfItsAngle) {
   EXPECT_NEAR(s.across, 0, 1e-12);
   // On the bias the same sheet does not shear but stretches.
   const double angle = 0.5 * std::atan2(2, 0.1) + std::numbers::pi / 2;
-  const PieceStrain bias = measure(makeCloth(
-      matrix(1, 0.1, 0, 1), Vector2d(std::cos(angle), std::sin(angle))));
+  const PieceStrain bias =
+      measure(makeCloth(matrix(1, 0.1, 0, 1), Vector2d(std::cos(angle), std::sin(angle))));
   EXPECT_LT(bias.faces[FaceId(7)].shear, 0.01);
   EXPECT_GT(std::abs(bias.faces[FaceId(7)].along), 0.04);
 }
@@ -115,7 +114,8 @@ TEST(Strain, PutsWhatIsOverAFabricsLimitFirst) {
   EXPECT_EQ(strain.overLimit, 1);
   ASSERT_FALSE(strain.worst.empty());
   EXPECT_EQ(strain.worst.front().kind, StrainKind::Across) << "8 % along are allowed";
-  EXPECT_EQ(describe(strain.worst.front()), "5.0 % stretch across the grain, over the limit of 4 %");
+  EXPECT_EQ(describe(strain.worst.front()),
+            "5.0 % stretch across the grain, over the limit of 4 %");
 }
 
 TEST(Strain, NamesNoPlaceWhereNothingIsStrained) {

@@ -198,7 +198,7 @@ std::vector<double> outlinesThatPopplerReads(const std::string& svg) {
        at = svg.find("<path", at + 1)) {
     const std::string path = svg.substr(at, svg.find("/>", at) - at);
     const std::size_t way = path.find(" d=\"");
-    if (way == std::string::npos || path.find("stroke-width=\"1.70") == std::string::npos) continue;
+    if (way == std::string::npos || path.find("stroke-width:1.70") == std::string::npos) continue;
     std::istringstream in(path.substr(way + 4, path.find('"', way + 4) - way - 4));
     double length = 0;
     Eigen::Vector2d first(0, 0);

@@ -60,8 +60,8 @@ struct PieceStrain {
   std::vector<StrainSpot> worst;  ///< over their limits first, then the greatest; at most three
 };
 
-/// Strain per face, and the worst places in words: by the nearest landmark of the model, or where it
-/// has none, by the nearest edge of the piece.
+/// Strain per face, and the worst places in words: by the nearest landmark of the model, or where
+/// it has none, by the nearest edge of the piece.
 ///
 /// @param piece in the shape that `flat` is the plane of (Pattern::shapedPiece()).
 /// @param finished the same piece: its grain.
