@@ -97,7 +97,7 @@ class Carrier {
     };
     if (tell("carry the curves over")) return cancelled();
     if (const Result<void> done = carry(); !done) return done.error();
-    // Lines that fairing would entangle are left as they were carried over.
+    // Lines that fairing would entangle or not make calmer are left as they were carried over.
     for (int round = 0;; ++round) {
       if (tell("make the curves smooth again")) return cancelled();
       Result<Document> smooth = fair();
@@ -105,9 +105,10 @@ class Carrier {
       if (tell("compare the pieces")) return cancelled();
       const Result<std::set<std::string>> tangled = finish(*smooth);
       if (!tangled) return tangled.error();
-      const std::size_t known = tangled_.size();
+      const std::size_t known = tangled_.size() + settled_.size();
       tangled_.insert(tangled->begin(), tangled->end());
-      if (tangled_.size() == known || !isFaired()) break;
+      settle();
+      if (tangled_.size() + settled_.size() == known || !isFaired()) break;
       if (round == kMaxRounds) {
         for (const StylingCurve& curve : own().curves) tangled_.insert(curve.id);
       }
@@ -195,6 +196,17 @@ class Carrier {
     });
   }
 
+  /// Notes the lines whose curvature varies more than before fairing, as where a line round an
+  /// ankle had two bends too small to see.
+  void settle() {
+    for (const TransferredCurve& curve : result_.curves) {
+      if (curve.fairing == TransferredCurve::Fairing::Faired &&
+          curve.variationAfter > curve.variationCarried) {
+        settled_.insert(curve.id);
+      }
+    }
+  }
+
   Result<Document> fair() {
     std::vector<std::string> ids;
     FairCurvesOptions options;
@@ -209,6 +221,9 @@ class Carrier {
       if (curve.fairing == TransferredCurve::Fairing::Faired &&
           (tangled_.contains(curve.id) || tangled_.contains(own().curves[original].id))) {
         curve.fairing = TransferredCurve::Fairing::Tangled;
+      } else if (curve.fairing == TransferredCurve::Fairing::Faired &&
+                 (settled_.contains(curve.id) || settled_.contains(own().curves[original].id))) {
+        curve.fairing = TransferredCurve::Fairing::Calm;
       }
       if (curve.fairing != TransferredCurve::Fairing::Faired) continue;
       ids.push_back(curve.id);
@@ -288,6 +303,7 @@ class Carrier {
   Document carried_;
   std::vector<Finding> carriedFindings_;
   std::set<std::string> tangled_;
+  std::set<std::string> settled_;  ///< carried over as calm as they can be
   Transfer result_;
 };
 

@@ -27,7 +27,7 @@ struct TransferredCurve {
     Faired,
     None,        ///< not asked for, or it could not be done: see the findings
     Tangled,     ///< its smooth shape would part pieces otherwise; left as carried over
-    Calm,        ///< it is no more restless than on its own model
+    Calm,        ///< no more restless than on its own model, or fairing makes it no calmer
     Kept,        ///< by TransferOptions::keep
     Anatomical,  ///< no cut, along a model curve, a section or mesh edges: left where it is
     Angular      ///< it was drawn straight from point to point
