@@ -278,13 +278,18 @@ void PatternView::paintPiece(QPainter& painter, const Drawn& piece) const {
   font.setPixelSize(12);
   font.setBold(true);
   painter.setFont(font);
+  // On one line, or a line for each word, where that stays inside of the piece; names that run over
+  // their neighbours could not be told apart. The list and the panel have every name.
   const QFontMetricsF metrics(font);
-  const double width = metrics.horizontalAdvance(piece.name);
-  if (width < 1.6 * box.width()) {
-    const QPointF at = toWindow.map(piece.label);
+  QString words = piece.name;
+  words.replace(QLatin1Char(' '), QLatin1Char('\n'));
+  for (const QString& text : {piece.name, words}) {
+    QRectF room = metrics.boundingRect(QRectF(0, 0, 1000, 1000), Qt::AlignCenter, text);
+    room.moveCenter(toWindow.map(piece.label));
+    if (!cut.contains(room)) continue;
     painter.setPen(colours.text);
-    painter.drawText(QRectF(at.x() - width / 2 - 4, at.y() - 9, width + 8, 18), Qt::AlignCenter,
-                     piece.name);
+    painter.drawText(room.adjusted(-4, -2, 4, 2), Qt::AlignCenter, text);
+    break;
   }
 }
 
