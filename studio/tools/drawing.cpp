@@ -6,6 +6,7 @@
 #include <limits>
 #include <set>
 
+#include "toile/curve/geodesic.h"
 #include "toile/edit/shape.h"
 #include "toile/edit/symmetry.h"
 
@@ -33,13 +34,16 @@ struct Reach {
   double least = std::numeric_limits<double>::max();
   double most = std::numeric_limits<double>::lowest();
 };
-Reach reachOf(const StylingCurve& curve, const ReferenceModel& model) {
+Reach reachOf(const Design& design, const StylingCurve& curve, const ReferenceModel& model) {
+  const std::vector<std::string> ids{curve.id};
+  GeodesicLinker linker(model.mesh);
+  // A dart has no points of its own: where it runs only placing tells.
+  const Result<std::vector<PlacedCurve>> placed = placeCurves(design, model, ids, linker);
   Reach reach;
-  for (const ModelPoint& data : curve.dataPoints) {
-    const Result<SurfacePoint> point = toSurfacePoint(*model.mesh, data);
-    if (!point) continue;
+  if (!placed) return reach;
+  for (const SurfacePoint& point : placed->front().dataPoints) {
     const double side =
-        model.symmetry->normal.dot(position(*model.mesh, *point)) - model.symmetry->offset;
+        model.symmetry->normal.dot(position(*model.mesh, point)) - model.symmetry->offset;
     reach.least = std::min(reach.least, side);
     reach.most = std::max(reach.most, side);
   }
@@ -90,7 +94,7 @@ Document withTwins(ToolHost& host, const Edited& drawn) {
   for (const std::string& id : drawn.curves) {
     const StylingCurve* curve = findCurve(*document.design, id);
     if (curve == nullptr || curve->mirrorOf) continue;
-    const Reach reach = reachOf(*curve, model);
+    const Reach reach = reachOf(*document.design, *curve, model);
     if (reach.most < kAcross && reach.least > -kAcross) continue;  // on the middle
     const bool isAcross = reach.most > kAcross && reach.least < -kAcross;
     if (isAcross && curve->closed) continue;

@@ -222,8 +222,8 @@ TEST_F(ToolsOnALine, DartOpensOnTheLine) {
   EXPECT_FALSE(desk.told_.isEmpty()) << "a dart needs a line";
   desk.click(*dart, onLine(0.5));
   desk.click(*dart, desk.pixel(30, 1230), true);
-  EXPECT_TRUE(std::ranges::any_of(
-      desk.curves(), [](const StylingCurve& curve) { return curve.kind == CurveKind::Dart; }));
+  EXPECT_EQ(std::ranges::count(desk.curves(), CurveKind::Dart, &StylingCurve::kind), 2)
+      << "the dart and its twin";
 }
 
 TEST(Tools, GirthIsClosedAndLevel) {
