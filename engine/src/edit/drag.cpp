@@ -195,7 +195,8 @@ Result<Document> CurveDrag::document() const {
     const SurfacePoint& from = s.grip.curve.data[i];
     const SurfacePoint& to = s.made.curve.data[s.made.newIndex[i]];
     const bool isDragged = i == s.grip.handles[s.handle];
-    if (!(from == to)) moved.push_back({from, to, isDragged && !s.rail});
+    const bool slides = isDragged && s.rail;
+    if (!(from == to)) moved.push_back({from, to, isDragged && !slides, slides ? s.railId : ""});
   }
   if (s.rail) {
     // The place on the rail becomes one of its data points.
@@ -212,9 +213,6 @@ Result<Document> CurveDrag::document() const {
       if (!linked) return linked.error();
     }
     sketch.store(s.railId, rail);
-    std::erase_if(moved, [&](const detail::MovedNode& node) {
-      return node.from == s.grip.curve.data[s.grip.handles[s.handle]];
-    });
   }
   const Result<void> followed = detail::followNodes(sketch, s.target.id, curve, moved);
   if (!followed) return followed.error();

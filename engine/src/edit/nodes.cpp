@@ -4,7 +4,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <limits>
+#include <set>
 
 #include "toile/curve/crossing.h"
 
@@ -46,6 +46,32 @@ std::vector<bool> sharedData(const Sketch& sketch, const std::string& id, const 
     }));
   }
   return shared;
+}
+
+/// Makes every place where the changed curve meets another now a data point of both. A point that
+/// is there already is kept: third lines may share it.
+Result<void> shareMeetings(Sketch& sketch, WorkCurve& curve, const std::string& otherId) {
+  const Mesh& mesh = sketch.mesh();
+  if (const Result<void> linked = linkAll(sketch.linker(), curve); !linked) return linked;
+  Result<WorkCurve> other = sketch.load(otherId);
+  if (!other) return other.error();
+  const SurfacePath path = pathOf(curve), otherPath = pathOf(*other);
+  if (!isValid(mesh, path) || !isValid(mesh, otherPath)) return {};
+  const auto meetings = findMeetings(mesh, path, otherPath);
+  for (const PathMeeting& meeting : meetings) {
+    const std::size_t before = curve.data.size(), beforeOther = other->data.size();
+    const std::size_t mine = insertData(mesh, curve, meeting.a);
+    const std::size_t theirs = insertData(mesh, *other, meeting.b);
+    // One point for both; the shift is rounding.
+    const SurfacePoint own = curve.data[mine], shared = other->data[theirs];
+    if (own == shared) continue;
+    if (other->data.size() > beforeOther && nudgeData(mesh, *other, theirs, own)) continue;
+    if (curve.data.size() > before && nudgeData(mesh, curve, mine, shared)) continue;
+    const Result<void> replaced = replaceData(sketch.linker(), mesh, *other, theirs, own);
+    if (!replaced) return replaced;
+  }
+  if (!meetings.empty()) sketch.store(otherId, *other);
+  return {};
 }
 
 }  // namespace
@@ -94,6 +120,7 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
                          const std::vector<MovedNode>& moved) {
   const Mesh& mesh = sketch.mesh();
   Reshaper reshaper(*sketch.model().index, sketch.linker());
+  std::set<std::string> touched;
   for (const MovedNode& node : moved) {
     if (node.from == node.to) continue;
     const ModelPoint was = toModelPoint(mesh, node.from);
@@ -104,6 +131,7 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
         through.push_back(other.id);
       }
     }
+    touched.insert(through.begin(), through.end());
     for (const std::string& otherId : through) {
       Result<WorkCurve> other = sketch.load(otherId);
       if (!other) return other.error();
@@ -111,7 +139,7 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
       if (found == other->data.end()) continue;
       auto at = static_cast<std::size_t>(found - other->data.begin());
       const bool isEnd = !other->closed && (at == 0 || at + 1 == other->data.size());
-      if (isEnd || node.isDragged) {
+      if ((isEnd || node.isDragged) && otherId != node.rail) {
         std::size_t turned = 0;
         if (other->closed) {  // so that the surroundings do not wrap
           turned = (at + other->data.size() / 2) % other->data.size();
@@ -133,32 +161,12 @@ Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve
           rotate(made->curve, made->newIndex[(other->data.size() - turned) % other->data.size()]);
         }
         sketch.store(otherId, made->curve);
-        continue;
       }
-      if (const Result<void> linked = linkAll(sketch.linker(), curve); !linked) return linked;
-      if (!isValid(mesh, pathOf(curve)) || !isValid(mesh, pathOf(*other))) continue;
-      // A crossing: where the changed curve crosses the other now, nearest to the old place.
-      const SurfacePath path = pathOf(curve), otherPath = pathOf(*other);
-      std::optional<PathMeeting> nearest;
-      double least = std::numeric_limits<double>::infinity();
-      for (const PathMeeting& meeting : findMeetings(mesh, path, otherPath)) {
-        const double distance = (position(mesh, meeting.point) - position(mesh, node.from)).norm();
-        if (distance < least) {
-          least = distance;
-          nearest = meeting;
-        }
-      }
-      if (!nearest) continue;
-      const std::size_t mine = insertData(mesh, curve, nearest->a);
-      const std::size_t theirs = insertData(mesh, *other, nearest->b);
-      // One point for both; the shift is rounding.
-      const SurfacePoint shared = other->data[theirs];
-      if (!(curve.data[mine] == shared)) {
-        const Result<void> replaced = replaceData(sketch.linker(), mesh, curve, mine, shared);
-        if (!replaced) return replaced;
-      }
-      sketch.store(otherId, *other);
     }
+  }
+  for (const std::string& otherId : touched) {
+    const Result<void> shared = shareMeetings(sketch, curve, otherId);
+    if (!shared) return shared.error().during("curve \"" + otherId + "\"");
   }
   return {};
 }

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <string>
 #include <unordered_map>
 
 #include "edit/reshape.h"
@@ -26,11 +27,12 @@ struct MovedNode {
   SurfacePoint from;
   SurfacePoint to;
   bool isDragged = false;  ///< taken by hand, not carried along
+  std::string rail{};      ///< a curve that it slides along, which stays where it is
 };
 
 /// Keeps crossings shared after curve `id` was changed: curves that end at a moved point end at its
-/// new place; one that passes through a point taken by hand goes with it; one that was crossed
-/// elsewhere gets the new crossing as a data point, and so does `curve`. Only curves with data
+/// new place; one that passes through a point taken by hand goes with it; with all
+/// of them every place where they meet `curve` now is a data point of both. Only curves with data
 /// points are looked at: others follow by themselves.
 Result<void> followNodes(Sketch& sketch, const std::string& id, WorkCurve& curve,
                          const std::vector<MovedNode>& moved);

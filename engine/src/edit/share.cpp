@@ -15,6 +15,8 @@ using detail::WorkCurve;
 
 namespace {
 
+constexpr std::size_t kRounds = 2;
+
 struct Line {
   std::string id;
   WorkCurve curve;
@@ -87,8 +89,10 @@ Result<Edited> shareCrossings(const Document& document, std::span<const std::str
     line.path = detail::pathOf(line.curve);
     lines.push_back(std::move(line));
   }
-  for (std::size_t a = 0; a < lines.size(); ++a) {
-    for (std::size_t b = a + 1; b < lines.size(); ++b) {
+  // Once more, since a point that was replaced can move a meeting next to it.
+  for (std::size_t pair = 0; pair < kRounds * lines.size() * lines.size(); ++pair) {
+    const std::size_t a = pair / lines.size() % lines.size(), b = pair % lines.size();
+    if (b > a) {
       const auto meetings = findMeetings(sketch.mesh(), lines[a].path, lines[b].path);
       for (const PathMeeting& meeting : meetings) {
         if (const Result<void> done = share(sketch, lines, lines[a], lines[b], meeting); !done) {
