@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "support/result_printing.h"
 #include "toile/pipeline.h"
@@ -41,6 +42,27 @@ class SleevePattern : public testing::Test {
 /// The document with another design on the same model.
 inline Document withDesign(const Document& document, Design design) {
   return {std::make_shared<const Design>(std::move(design)), document.model};
+}
+
+/// A level seam all round.
+inline StylingCurve ringSeam(const std::string& id, double height) {
+  StylingCurve curve;
+  curve.id = id;
+  curve.closed = true;
+  AlongSection way;
+  way.plane.normal = {0, 0, 1};
+  way.plane.through = Length::mm(height);
+  curve.way = way;
+  return curve;
+}
+
+/// The sleeve parted by two level seams: six pieces in three tiers.
+inline Document tieredSleeve(const Document& sleeve, double upperSeam, double lowerSeam) {
+  Design design = *sleeve.design;
+  std::erase_if(design.curves, [](const StylingCurve& c) { return c.id == "elbow-line"; });
+  design.curves.push_back(ringSeam("upper-ring", upperSeam));
+  design.curves.push_back(ringSeam("lower-ring", lowerSeam));
+  return withDesign(sleeve, design);
 }
 
 }  // namespace toile::test

@@ -63,18 +63,16 @@ constexpr const char* kMetric = "0 TEXT\n8 1\n10 0\n20 0\n40 5\n1 UNITS: METRIC\
 class SampleDxf : public testing::TestWithParam<const char*> {};
 
 /// The samples lie beside the test data.
-std::optional<std::filesystem::path> sample(const std::string& name) {
-  const std::filesystem::path path = test::testDataFolder() / ".." / "samples" / "dxf" / name;
-  if (!std::filesystem::exists(path)) return std::nullopt;
-  return path;
+std::string sample(const std::string& name) {
+  return "../samples/dxf/" + name;
 }
 
 TEST_P(SampleDxf, HasTheLengthsAreasAndCountsThatAnyReaderMustFind) {
-  const auto path = sample(GetParam());
-  if (!path) GTEST_SKIP() << "no samples";
-  const DxfDrawing drawing = read(*readFile(*path));
+  TOILE_TEST_DATA_OR_SKIP(path, sample(GetParam()));
+  TOILE_TEST_DATA_OR_SKIP(table, sample("expected.json"));
+  const DxfDrawing drawing = read(*readFile(path));
   EXPECT_TRUE(drawing.findings.empty());
-  const auto expected = nlohmann::json::parse(*readFile(*sample("expected.json")))[GetParam()];
+  const auto expected = nlohmann::json::parse(*readFile(table))[GetParam()];
   const bool inches = expected["units"] == "inch";
   EXPECT_EQ(drawing.unit, inches ? FileUnit::Inch : FileUnit::Millimetre);
   const double mm = inches ? 25.4 : 1;
@@ -115,9 +113,8 @@ TEST_P(SampleDxf, HasTheLengthsAreasAndCountsThatAnyReaderMustFind) {
 }
 
 TEST_P(SampleDxf, ComesBackWithoutLoss) {
-  const auto path = sample(GetParam());
-  if (!path) GTEST_SKIP() << "no samples";
-  const DxfDrawing drawing = read(*readFile(*path));
+  TOILE_TEST_DATA_OR_SKIP(path, sample(GetParam()));
+  const DxfDrawing drawing = read(*readFile(path));
   const std::string text = writeDxf(drawing);
   const DxfDrawing again = read(text);
   EXPECT_EQ(again.blocks, drawing.blocks);
@@ -136,7 +133,7 @@ TEST_P(SampleDxf, ComesBackWithoutLoss) {
     json.erase("version");  // the header is not the pattern's
     return json;
   };
-  EXPECT_EQ(dump(*path), dump(folder.path() / "again.dxf"));
+  EXPECT_EQ(dump(path), dump(folder.path() / "again.dxf"));
 }
 
 INSTANTIATE_TEST_SUITE_P(Samples, SampleDxf,
@@ -150,9 +147,8 @@ INSTANTIATE_TEST_SUITE_P(Samples, SampleDxf,
                          });
 
 TEST(DxfFile, ReadsThatOfCloWithoutTextHeights) {
-  const auto path = sample("thirdparty/clo-box.dxf");
-  if (!path) GTEST_SKIP() << "no samples";
-  const DxfDrawing drawing = read(*readFile(*path));
+  TOILE_TEST_DATA_OR_SKIP(path, sample("thirdparty/clo-box.dxf"));
+  const DxfDrawing drawing = read(*readFile(path));
   ASSERT_EQ(drawing.blocks.size(), 1u);
   const Result<Pattern> pattern = patternFrom(drawing, "box");
   ASSERT_TRUE(pattern) << pattern.error();
@@ -253,9 +249,8 @@ TEST(DxfFile, RefusesDamage) {
 }
 
 TEST(DxfFile, NamesTheSizesThatThereAre) {
-  const auto path = sample("pocket-strap-aama-nest-inch.dxf");
-  if (!path) GTEST_SKIP() << "no samples";
-  const DxfDrawing drawing = read(*readFile(*path));
+  TOILE_TEST_DATA_OR_SKIP(path, sample("pocket-strap-aama-nest-inch.dxf"));
+  const DxfDrawing drawing = read(*readFile(path));
   const Result<Pattern> pattern = patternFrom(drawing, "nest", "XXL");
   ASSERT_FALSE(pattern);
   EXPECT_EQ(pattern.error().code, ErrorCode::NameNotFound);

@@ -16,7 +16,6 @@
 #include "finish/polygon.h"
 #include "support/hand_made_pattern.h"
 #include "support/run_program.h"
-#include "support/test_data.h"
 
 namespace toile {
 namespace {
@@ -268,10 +267,7 @@ TEST(Dxf, HasTheLengthsThatGdalReads) {
 
 TEST(Dxf, IsDrawnByLibreCad) {
   const test::ProgramResult found = test::runProgram({"which", "librecad"});
-  if (found.status != 0) {
-    if (test::isTestDataRequired()) FAIL() << "librecad is not installed";
-    GTEST_SKIP() << "librecad is not installed";
-  }
+  ASSERT_EQ(found.status, 0) << "librecad is not installed; ./test installs it";
   const SavedDxf saved(test::makeTwoPiecePattern());
   // Its settings go to a folder of the test's; its status is 0 whatever happens.
   test::runProgram({"env", "QT_QPA_PLATFORM=offscreen", "HOME=" + saved.folder.path().string(),

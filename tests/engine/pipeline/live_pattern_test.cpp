@@ -18,26 +18,6 @@
 namespace toile::test {
 namespace {
 
-StylingCurve ringSeam(const std::string& id, double height) {
-  StylingCurve curve;
-  curve.id = id;
-  curve.closed = true;
-  AlongSection way;
-  way.plane.normal = {0, 0, 1};
-  way.plane.through = Length::mm(height);
-  curve.way = way;
-  return curve;
-}
-
-/// The sleeve parted by two level seams: six pieces in three tiers.
-Document tieredSleeve(const Document& sleeve, double upperSeam, double lowerSeam) {
-  Design design = *sleeve.design;
-  std::erase_if(design.curves, [](const StylingCurve& c) { return c.id == "elbow-line"; });
-  design.curves.push_back(ringSeam("upper-ring", upperSeam));
-  design.curves.push_back(ringSeam("lower-ring", lowerSeam));
-  return withDesign(sleeve, design);
-}
-
 std::string everything(const Pattern& pattern) {
   std::string all = writeReportJson(pattern) + writeSvg(pattern);
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {

@@ -15,27 +15,6 @@
 namespace toile::test {
 namespace {
 
-StylingCurve ringSeam(const std::string& id, double height) {
-  StylingCurve curve;
-  curve.id = id;
-  curve.closed = true;
-  AlongSection way;
-  way.plane.normal = {0, 0, 1};
-  way.plane.through = Length::mm(height);
-  curve.way = way;
-  return curve;
-}
-
-/// The sleeve parted by two level seams: six pieces in three tiers.
-Document tieredSleeve(double upperSeam, double lowerSeam) {
-  const Document sleeve = sleeveDocument();
-  Design design = *sleeve.design;
-  std::erase_if(design.curves, [](const StylingCurve& c) { return c.id == "elbow-line"; });
-  design.curves.push_back(ringSeam("upper-ring", upperSeam));
-  design.curves.push_back(ringSeam("lower-ring", lowerSeam));
-  return withDesign(sleeve, design);
-}
-
 std::string everything(const Pattern& pattern) {
   std::string all = writeReportJson(pattern);
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
@@ -82,14 +61,14 @@ TEST(MakePattern, MatesHaveBitwiseEqualTargets) {
 
 TEST(MakePattern, SolvesOnlyPiecesThatAnEditTouched) {
   PatternCache cache;
-  const Result<Pattern> before = makePattern(tieredSleeve(500, 150), {}, &cache);
+  const Result<Pattern> before = makePattern(tieredSleeve(sleeveDocument(), 500, 150), {}, &cache);
   ASSERT_TRUE(before) << before.error();
   ASSERT_EQ(before->pieces.size(), 6U);
   EXPECT_EQ(cache.solved, 6U);
   EXPECT_EQ(cache.reused, 0U);
 
   // The lower seam bounds the middle and the lower tier; the two upper pieces do not change.
-  const Document edited = tieredSleeve(500, 160);
+  const Document edited = tieredSleeve(sleeveDocument(), 500, 160);
   const Result<Pattern> warm = makePattern(edited, {}, &cache);
   ASSERT_TRUE(warm) << warm.error();
   EXPECT_EQ(cache.solved, 10U);
@@ -117,7 +96,7 @@ TEST(MakePattern, SolvesAgainWithOtherOptions) {
 }
 
 TEST(MakePattern, IsTheSameForAnyNumberOfThreads) {
-  const Document document = tieredSleeve(500, 150);
+  const Document document = tieredSleeve(sleeveDocument(), 500, 150);
   std::set<std::string> answers;
   for (const std::size_t threads : {1U, 2U, 4U}) {
     const ThreadLimit limit(threads);

@@ -10,7 +10,6 @@
 
 #include "support/run_program.h"
 #include "support/sample_designs.h"
-#include "support/test_data.h"
 #include "toile/core/file.h"
 #include "toile/io/sewing_files.h"
 
@@ -41,11 +40,9 @@ class WetsuitFiles : public testing::Test {
     EXPECT_EQ(result.status, 0) << words[0] << ": " << result.err;
     return result.out;
   }
-  /// Whether a program is there; a missing one skips the test, or fails it where data is required.
-  static bool has(const std::string& program) {
-    if (runProgram({"which", program}).status == 0) return true;
-    EXPECT_FALSE(isTestDataRequired()) << program << " is not installed";
-    return false;
+  static testing::AssertionResult has(const std::string& program) {
+    if (runProgram({"which", program}).status == 0) return testing::AssertionSuccess();
+    return testing::AssertionFailure() << program << " is not installed; ./test installs it";
   }
   static inline std::optional<Pattern> pattern_;
   static inline std::unique_ptr<TemporaryFolder> folder_;
@@ -85,7 +82,7 @@ TEST_F(WetsuitFiles, SewTogetherVirtually) {
 }
 
 TEST_F(WetsuitFiles, HaveThePerimetersThatGdalReads) {
-  if (!has("ogrinfo")) GTEST_SKIP() << "ogrinfo is not installed";
+  ASSERT_TRUE(has("ogrinfo"));
   const std::string out =
       run({"ogrinfo", "-ro", "-q", "-al", path("pattern.dxf"), "--config",
            "DXF_MERGE_BLOCK_GEOMETRIES", "FALSE", "-dialect", "SQLITE", "-sql",
@@ -112,7 +109,7 @@ TEST_F(WetsuitFiles, AreWithoutFaultForEzdxf) {
 }
 
 TEST_F(WetsuitFiles, AreDrawnByLibreCad) {
-  if (!has("librecad")) GTEST_SKIP() << "librecad is not installed";
+  ASSERT_TRUE(has("librecad"));
   const std::string home = folder_->path();
   for (const char* name : {"pattern", "laser"}) {
     runProgram({"env", "QT_QPA_PLATFORM=offscreen", "HOME=" + home, "XDG_RUNTIME_DIR=" + home,
@@ -126,10 +123,7 @@ TEST_F(WetsuitFiles, AreDrawnByLibreCad) {
 
 TEST_F(WetsuitFiles, HaveTheSizeThatInkscapesImporterReads) {
   const std::string importer = "/usr/share/inkscape/extensions/dxf_input.py";
-  if (!std::filesystem::exists(importer)) {
-    if (isTestDataRequired()) FAIL() << "Inkscape is not installed";
-    GTEST_SKIP() << "Inkscape is not installed";
-  }
+  ASSERT_TRUE(std::filesystem::exists(importer)) << "Inkscape is not installed; ./test installs it";
   // One unit of the drawing is a millimetre, and Inkscape has 96 dots an inch.
   const std::string svg = run({"/usr/bin/python3", importer, "--scalemethod=manual", "--scale=1.0",
                                "--encoding=latin_1", path("laser.dxf")});
@@ -150,7 +144,7 @@ TEST_F(WetsuitFiles, HaveTheSizeThatInkscapesImporterReads) {
 }
 
 TEST_F(WetsuitFiles, ArePlottedAtTrueSizeByHp2xx) {
-  if (!has("hp2xx")) GTEST_SKIP() << "hp2xx is not installed";
+  ASSERT_TRUE(has("hp2xx"));
   const std::string eps = path("plot.eps");
   runProgram({"hp2xx", "-q", "-t", "-m", "eps", "-f", eps, path("pattern.plt")});
   const std::string text = readText(eps);
@@ -225,7 +219,7 @@ std::vector<double> outlinesThatPopplerReads(const std::string& svg) {
 }
 
 TEST_F(WetsuitFiles, HaveTheLengthsThatPopplerReads) {
-  if (!has("pdftocairo")) GTEST_SKIP() << "pdftocairo is not installed";
+  ASSERT_TRUE(has("pdftocairo"));
   const Result<std::string> pdf = writePdf(*pattern_, {.paper = PdfPaper::OneSheet});
   ASSERT_TRUE(pdf) << pdf.error();
   writeText(path("one.pdf"), *pdf);
