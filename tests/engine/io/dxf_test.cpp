@@ -248,6 +248,7 @@ TEST(Dxf, HasTheLengthsThatGdalReads) {
   const test::ProgramResult read = test::runProgram(
       {"ogrinfo", "-ro", "-q", "-al", saved.path.string(), "--config", "DXF_MERGE_BLOCK_GEOMETRIES",
        "FALSE", "-dialect", "SQLITE", "-sql",
+       // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one long query
        "SELECT ST_Length(geometry) AS len, ST_IsClosed(geometry) AS closed FROM entities WHERE "
        "Layer = '14' AND Text IS NULL"});
   ASSERT_EQ(read.status, 0) << read.err;
@@ -308,6 +309,7 @@ TEST(Dxf, HolesAreCutouts) {
   const nlohmann::json file = readWithEzdxf(SavedDxf(pattern).path);
   int cutouts = 0;
   for (const auto& e : file["blocks"]["ELL_M"]) {
+    // NOLINTNEXTLINE(misc-redundant-expression): the macro compares twice
     if (e["layer"] == 11 || e["layer"] == 86) {
       ++cutouts;
       EXPECT_TRUE(e["closed"].get<bool>());

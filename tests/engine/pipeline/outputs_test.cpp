@@ -86,6 +86,7 @@ TEST_F(WetsuitFiles, HaveThePerimetersThatGdalReads) {
   const std::string out =
       run({"ogrinfo", "-ro", "-q", "-al", path("pattern.dxf"), "--config",
            "DXF_MERGE_BLOCK_GEOMETRIES", "FALSE", "-dialect", "SQLITE", "-sql",
+           // NOLINTNEXTLINE(bugprone-suspicious-missing-comma): one long query
            "SELECT SUM(ST_Length(geometry)) AS len, MIN(ST_IsClosed(geometry)) AS closed FROM "
            "entities WHERE Layer IN ('1', '11') AND Text IS NULL"});
   double wanted = 0;
