@@ -12,10 +12,10 @@
 #include "support/yardstick.h"
 #include "toile/io/dxf.h"
 #include "toile/io/pdf.h"
-#include "toile/io/render.h"
 #include "toile/io/report.h"
 #include "toile/io/svg.h"
 #include "toile/pipeline.h"
+#include "toile/render/render.h"
 
 namespace toile {
 namespace {

@@ -12,9 +12,9 @@
 #include "commands.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
-#include "toile/io/map_picture.h"
 #include "toile/model/guiding_map.h"
 #include "toile/pipeline.h"
+#include "toile/render/map_picture.h"
 #include "toile/shape/builtin.h"
 
 namespace toile::cli {

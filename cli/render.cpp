@@ -12,8 +12,8 @@
 #include "commands.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
-#include "toile/io/render.h"
 #include "toile/pipeline.h"
+#include "toile/render/render.h"
 #include "toile/shape/builtin.h"
 
 namespace toile::cli {

@@ -11,9 +11,9 @@
 #include "toile/batch/batch.h"
 #include "toile/core/file.h"
 #include "toile/core/version.h"
-#include "toile/io/render.h"
 #include "toile/pipeline.h"
 #include "toile/pipeline/carry.h"
+#include "toile/render/render.h"
 #include "toile/shape/builtin.h"
 
 namespace toile {

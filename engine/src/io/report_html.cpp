@@ -10,7 +10,7 @@
 
 #include "io/markup.h"
 #include "io/report_data.h"
-#include "io/strain_map.h"
+#include "render/strain_map.h"
 #include "toile/core/version.h"
 #include "toile/io/report.h"
 

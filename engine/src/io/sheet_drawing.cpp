@@ -11,7 +11,7 @@
 #include <set>
 #include <span>
 
-#include "io/label_fit.h"
+#include "render/label_fit.h"
 #include "toile/sew/sewing.h"
 
 namespace toile {

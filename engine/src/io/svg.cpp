@@ -13,7 +13,7 @@
 #include "finish/smoothing.h"
 #include "io/markup.h"
 #include "io/sheet_drawing.h"
-#include "io/strain_map.h"
+#include "render/strain_map.h"
 
 namespace toile {
 namespace {

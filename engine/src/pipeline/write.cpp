@@ -9,11 +9,11 @@
 #include "toile/core/parallel.h"
 #include "toile/io/dxf.h"
 #include "toile/io/pdf.h"
-#include "toile/io/render.h"
 #include "toile/io/report.h"
 #include "toile/io/sewing_files.h"
 #include "toile/io/svg.h"
 #include "toile/pipeline.h"
+#include "toile/render/render.h"
 
 namespace toile {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "toile/io/render.h"
+#include "toile/render/render.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -9,7 +9,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "io/panel_colours.h"
+#include "render/panel_colours.h"
 #include "support/sample_designs.h"
 #include "toile/core/parallel.h"
 #include "toile/shape/builtin.h"
