@@ -82,6 +82,22 @@ void expectGradientMatchesEnergy(const EnergyTerm& term, const Fixture& f) {
   }
 }
 
+/// The matrix of the term against differences of its gradient.
+void expectMatrixIsSlopeOfGradient(const EnergyTerm& term, const Fixture& f, double tolerance) {
+  BlockMatrix hessian(f.pattern), unused(f.pattern);
+  (void)gradientOf(term, f, f.q, hessian);
+  const Eigen::MatrixXd full = dense(hessian);
+  constexpr double kStep = 1e-5;
+  for (Eigen::Index i = 0; i < f.q.size(); ++i) {
+    Plane ahead = f.q, behind = f.q;
+    ahead[i] += kStep;
+    behind[i] -= kStep;
+    const Eigen::VectorXd column =
+        (gradientOf(term, f, ahead, unused) - gradientOf(term, f, behind, unused)) / (2 * kStep);
+    EXPECT_LT((full.col(i) - column).cwiseAbs().maxCoeff(), tolerance * full.cwiseAbs().maxCoeff());
+  }
+}
+
 class Strain : public testing::TestWithParam<double> {};
 
 TEST_P(Strain, GradientIsTheSlopeOfTheEnergy) {
@@ -97,19 +113,7 @@ TEST_P(Strain, MatrixIsTheHessianOfStretchedTriangles) {
   const double stretch = 0.2 / (1 + GetParam() / 2);
   const Fixture f(test::irregularGrid(4, 3), 1 + stretch, stretch, 5);
   const StrainEnergy strain(f.problem, f.pattern, GetParam());
-  BlockMatrix hessian(f.pattern), unused(f.pattern);
-  (void)gradientOf(strain, f, f.q, hessian);
-  const Eigen::MatrixXd full = dense(hessian);
-  constexpr double kStep = 1e-5;
-  for (Eigen::Index i = 0; i < f.q.size(); ++i) {
-    Plane ahead = f.q, behind = f.q;
-    ahead[i] += kStep;
-    behind[i] -= kStep;
-    const Eigen::VectorXd column =
-        (gradientOf(strain, f, ahead, unused) - gradientOf(strain, f, behind, unused)) /
-        (2 * kStep);
-    EXPECT_LT((full.col(i) - column).cwiseAbs().maxCoeff(), 1e-5 * full.cwiseAbs().maxCoeff());
-  }
+  expectMatrixIsSlopeOfGradient(strain, f, 1e-5);
 }
 
 TEST_P(Strain, MatrixIsNeverIndefinite) {
@@ -155,19 +159,7 @@ TEST(WireBending, MatrixIsTheHessianWithSecondDerivatives) {
   WireBending bending(f.problem, f.pattern, cornerAngles(f.problem, f.q));
   bending.setStiffness(7);
   bending.useSecondDerivatives();
-  BlockMatrix hessian(f.pattern), unused(f.pattern);
-  (void)gradientOf(bending, f, f.q, hessian);
-  const Eigen::MatrixXd full = dense(hessian);
-  constexpr double kStep = 1e-5;
-  for (Eigen::Index i = 0; i < f.q.size(); ++i) {
-    Plane ahead = f.q, behind = f.q;
-    ahead[i] += kStep;
-    behind[i] -= kStep;
-    const Eigen::VectorXd column =
-        (gradientOf(bending, f, ahead, unused) - gradientOf(bending, f, behind, unused)) /
-        (2 * kStep);
-    EXPECT_LT((full.col(i) - column).cwiseAbs().maxCoeff(), 1e-6 * full.cwiseAbs().maxCoeff());
-  }
+  expectMatrixIsSlopeOfGradient(bending, f, 1e-6);
 }
 
 TEST(WireBending, AgreesWithTheTrianglesAngles) {
