@@ -1,0 +1,206 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How the viewport draws: body, lines and what the tool shows over them.
+#include <QPainter>
+#include <algorithm>
+
+#include "app/palette.h"
+#include "viewport/overlay_painter.h"
+#include "viewport/viewport.h"
+
+namespace toile::studio {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+namespace {
+
+constexpr int kFineSamples = 4;
+
+/// How far the body reaches around the middle of its box.
+struct Ball {
+  Vector3d centre{0, 0, 900};
+  double radius = 1000;
+};
+Ball ballOf(const ReferenceModel& model) {
+  const Vector3d& low = model.mesh->boxMin();
+  const Vector3d& high = model.mesh->boxMax();
+  return {0.5 * (low + high), 0.5 * (high - low).norm() + 20};
+}
+
+void applyDashes(DrawnLine& line, const LineLook& look) {
+  if (look.dots) {
+    line.gap = look.dashes[1];
+    line.casing = 0;
+    return;
+  }
+  if (look.dashes.size() >= 2) line.dash = look.dashes[0], line.gap = look.dashes[1];
+  if (look.dashes.size() >= 4) line.dash2 = look.dashes[2], line.gap2 = look.dashes[3];
+}
+
+DrawnLine inkOf(CurveKind kind) {
+  const LineLook look = lookOf(kind);
+  DrawnLine line;
+  line.colour = look.onBody;
+  line.width = look.width;
+  applyDashes(line, look);
+  return line;
+}
+
+}  // namespace
+
+void Viewport::initializeGL() {
+  initializeOpenGLFunctions();
+  body_.initialize();
+  lines_.initialize();
+  verticesAreOld_ = true;
+}
+
+void Viewport::resizeGL(int, int) {
+  fine_.reset();
+  session_.setScreen(screen());
+}
+
+void Viewport::updateVertices() {
+  verticesAreOld_ = false;
+  if (!shape_) return;
+  body_.setVertices(makeBodyVertices(*shape_, session_.pattern().get(), colouring_, measure_));
+}
+
+std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
+  std::vector<DrawnLine> drawn;
+  const Palette& colours = studio::palette();
+  QColor halo("#1558D6"), hoverHalo = halo;
+  halo.setAlphaF(0.5F);
+  hoverHalo.setAlphaF(0.25F);
+
+  for (const auto& line : session_.lines().all()) {
+    DrawnLine ink = inkOf(line->curve.kind);
+    ink.points = line->points;
+    ink.normals = line->normals;
+    const bool isDraft =
+        session_.isPreview() && line->curve.mirrorOf && session_.selection().id != line->curve.id &&
+        !std::ranges::any_of(session_.document().design->curves,
+                             [&](const auto& c) { return c.id == line->curve.id; });
+    if (isDraft) {  // the twin of a line at work
+      ink.width = 1.8;
+      ink.dash = 6, ink.gap = 4, ink.dash2 = ink.gap2 = 0;
+    }
+    if (session_.selection().isLine(line->curve.id)) {
+      ink.halo = halo;
+    } else if (session_.hover().isLine(line->curve.id)) {
+      ink.halo = hoverHalo;
+    }
+    drawn.push_back(std::move(ink));
+  }
+  // The outline of the selected piece.
+  if (session_.pattern() && !session_.isPreview()) {
+    for (const Piece& piece : session_.pattern()->cut.pieces) {
+      const bool isSelected = session_.selection().isPiece(piece.id);
+      if (!isSelected && !session_.hover().isPiece(piece.id)) continue;
+      for (const Wire& wire : piece.wires) {
+        if (!isBoundary(wire.kind)) continue;
+        DrawnLine outline;
+        for (const VertexId v : wire.vertices) {
+          outline.points.push_back(piece.mesh->position(v));
+          Vector3d normal = Vector3d::Zero();
+          for (const FaceId f : piece.mesh->facesAround(v)) normal += piece.mesh->normal(f);
+          outline.normals.push_back(normal.normalized());
+        }
+        outline.width = 0;
+        outline.casing = 0;
+        outline.halo = isSelected ? halo : hoverHalo;
+        drawn.push_back(std::move(outline));
+      }
+    }
+  }
+  if (overlay.showMiddle) {
+    for (const auto& middle : session_.middle()) {
+      DrawnLine line;
+      line.points = middle;
+      line.colour = QColor("#5A2CB0");
+      line.width = 1.3;
+      line.casing = 0;
+      line.dash = 9, line.gap = 4, line.dash2 = 1.5, line.gap2 = 4;
+      drawn.push_back(std::move(line));
+    }
+  }
+  for (const OverlayLine& line : overlay.lines) {
+    DrawnLine ink = inkOf(line.kind);
+    ink.points = line.points;
+    ink.normals = line.normals;
+    switch (line.style) {
+      case OverlayLine::Style::Draft:
+        break;
+      case OverlayLine::Style::Twin:
+        ink.width = 1.8;
+        ink.dash = 6, ink.gap = 4;
+        break;
+      case OverlayLine::Style::Before:
+        ink.width = 1.4;
+        ink.colour = QColor("#55585E");
+        ink.dash = 2, ink.gap = 3, ink.dash2 = ink.gap2 = 0;
+        ink.casing = 0.3;
+        break;
+      case OverlayLine::Style::Remove:
+        ink.halo = colours.trouble;
+        ink.halo.setAlphaF(0.55F);
+        break;
+    }
+    drawn.push_back(std::move(ink));
+  }
+  return drawn;
+}
+
+void Viewport::drawScene(const Overlay& overlay) {
+  const Screen shown = screen();
+  const Ball ball = ballOf(*session_.document().model);
+  const Eigen::Matrix4d clip = shown.clipFromWorld(ball.centre, ball.radius);
+  Screen pixels = shown;
+  pixels.width *= devicePixelRatioF();
+  pixels.height *= devicePixelRatioF();
+  glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
+  body_.drawGround(*this);
+  BodyLook look = look_;
+  if (overlay.seeThroughTo) look.seeThrough = SeeThrough{*overlay.seeThroughTo};
+  body_.draw(*this, pixels, clip, look);
+  lines_.draw(*this, shown, clip, devicePixelRatioF(), drawnLines(overlay), seeThrough_);
+}
+
+void Viewport::paintGL() {
+  if (verticesAreOld_) updateVertices();
+  const Overlay overlay = session_.hasWork() ? session_.tool().overlay(session_) : Overlay();
+  if (session_.hasWork()) {
+    const QSize size = this->size() * devicePixelRatioF();
+    if (coarse_) {
+      drawScene(overlay);
+    } else {
+      if (!fine_ || fine_->size() != size) {
+        QOpenGLFramebufferObjectFormat format;
+        format.setSamples(kFineSamples);
+        format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
+        fine_ = std::make_unique<QOpenGLFramebufferObject>(size, format);
+      }
+      fine_->bind();
+      glViewport(0, 0, size.width(), size.height());
+      drawScene(overlay);
+      glBindFramebuffer(GL_READ_FRAMEBUFFER, fine_->handle());
+      glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
+      glBlitFramebuffer(0, 0, size.width(), size.height(), 0, 0, size.width(), size.height(),
+                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
+      glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
+    }
+    paintOverlay(overlay);
+  }
+  Q_EMIT painted();
+}
+
+void Viewport::paintOverlay(const Overlay& overlay) {
+  glDisable(GL_DEPTH_TEST);
+  QPainter painter(this);
+  painter.setRenderHint(QPainter::Antialiasing);
+  const std::optional<Vector2d> cursor =
+      lastPointer_ ? std::optional(lastPointer_->at) : std::nullopt;
+  paintToolOverlay(painter, overlay, session_, cursor);
+}
+
+}  // namespace toile::studio
