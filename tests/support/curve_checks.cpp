@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <iterator>
 #include <limits>
 
 #include "support/edit_support.h"
@@ -48,11 +49,15 @@ std::vector<std::string> idsOf(const Design& design) {
   return ids;
 }
 
-std::size_t sharedCount(const StylingCurve& a, const StylingCurve& b) {
-  return static_cast<std::size_t>(
-      std::count_if(a.dataPoints.begin(), a.dataPoints.end(), [&](const ModelPoint& point) {
-        return std::find(b.dataPoints.begin(), b.dataPoints.end(), point) != b.dataPoints.end();
-      }));
+/// Data points of both, bit for bit.
+std::vector<ModelPoint> commonPoints(const StylingCurve& a, const StylingCurve& b) {
+  std::vector<ModelPoint> common;
+  std::copy_if(a.dataPoints.begin(), a.dataPoints.end(), std::back_inserter(common),
+               [&](const ModelPoint& point) {
+                 return std::find(b.dataPoints.begin(), b.dataPoints.end(), point) !=
+                        b.dataPoints.end();
+               });
+  return common;
 }
 
 }  // namespace
@@ -101,19 +106,14 @@ void expectAllShared(const Document& document, GeodesicLinker& linker, const std
       for (const PathMeeting& meeting : findMeetings(mesh, (*placed)[a].path, (*placed)[b].path)) {
         // Nearer than rounding it is the shared point itself; where lines run along each other the
         // place of a meeting is only known to rounding over their angle.
-        const auto nearest = [&](const StylingCurve& curve) {
-          double least = std::numeric_limits<double>::infinity();
-          for (const ModelPoint& point : curve.dataPoints) {
-            const Vector3d place = position(mesh, *toSurfacePoint(mesh, point));
-            least = std::min(least, (place - position(mesh, meeting.point)).norm());
-          }
-          return least;
-        };
-        ASSERT_LT(std::max(nearest(curves[a]), nearest(curves[b])), 10 * kSameMeeting)
+        double least = std::numeric_limits<double>::infinity();
+        for (const ModelPoint& point : commonPoints(curves[a], curves[b])) {
+          const Vector3d place = position(mesh, *toSurfacePoint(mesh, point));
+          least = std::min(least, (place - position(mesh, meeting.point)).norm());
+        }
+        ASSERT_LT(least, 10 * kSameMeeting)
             << context << ": " << curves[a].id << " and " << curves[b].id << " at " << meeting.a
             << " and " << meeting.b;
-        ASSERT_GT(sharedCount(curves[a], curves[b]), 0U)
-            << context << ": " << curves[a].id << " and " << curves[b].id;
       }
     }
   }
@@ -125,7 +125,7 @@ std::vector<std::string> sharingWith(const Design& design, const std::string& cu
                                   [&](const StylingCurve& c) { return c.id == curve; });
   if (found == design.curves.end()) return others;
   for (const StylingCurve& other : design.curves) {
-    if (other.id != curve && sharedCount(*found, other) > 0) others.push_back(other.id);
+    if (other.id != curve && !commonPoints(*found, other).empty()) others.push_back(other.id);
   }
   return others;
 }
@@ -138,7 +138,7 @@ void expectStillShared(const Document& document, GeodesicLinker& linker, const s
     ASSERT_TRUE(placed) << context << ": " << placed.error();
     const auto meetings = findMeetings(*document.model->mesh, (*placed)[0].path, (*placed)[1].path);
     if (meetings.empty()) continue;
-    ASSERT_GT(sharedCount(curveOf(document, curve), curveOf(document, other)), 0U)
+    ASSERT_FALSE(commonPoints(curveOf(document, curve), curveOf(document, other)).empty())
         << context << ": " << curve << " and " << other;
   }
 }

@@ -13,7 +13,7 @@ namespace toile::test {
 /// also where a link is as short as rounding; live mirror images on models that are symmetric).
 void expectSound(const Document& document, GeodesicLinker& linker, const std::string& context);
 
-/// Wherever two curves with data points meet, both have the same data point, bit for bit.
+/// Wherever two curves with data points meet, both have the same data point there, bit for bit.
 void expectAllShared(const Document& document, GeodesicLinker& linker, const std::string& context);
 
 /// With which curves a curve shares data points.

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "edit/sketch.h"
 #include "toile/curve/crossing.h"
@@ -15,47 +16,78 @@ using detail::WorkCurve;
 
 namespace {
 
-constexpr std::size_t kRounds = 2;
+/// A point that is shared moves the meetings beside it, by rounding over the angle of the lines.
+constexpr int kMostRounds = 16;
 
 struct Line {
   std::string id;
   WorkCurve curve;
   SurfacePath path;
-  bool isChanged = false;
+  bool isMet = false;
+  bool isStale = false;  ///< the path is not the curve's any more
+  int lastRound = 0;     ///< in which it was changed
 };
 
 /// Puts a point in the place of another, a rounding away, in every line that has it.
 Result<void> replaceEverywhere(Sketch& sketch, std::vector<Line>& lines, const SurfacePoint& old,
-                               const SurfacePoint& now) {
+                               const SurfacePoint& now, int round) {
   for (Line& line : lines) {
     for (std::size_t i = 0; i < line.curve.data.size(); ++i) {
       if (!(line.curve.data[i] == old)) continue;
       const Result<void> done =
           detail::replaceData(sketch.linker(), sketch.mesh(), line.curve, i, now);
       if (!done) return done;
-      line.isChanged = true;
+      line.lastRound = round;
+      line.isStale = true;
     }
   }
   return {};
 }
 
+/// A common data point nearer than this to a meeting, mm along both, is that meeting: where lines
+/// run along each other its place is known to rounding over their angle.
+constexpr double kSameCrossing = 10 * kSameMeeting;
+
+bool isShared(const Mesh& mesh, const Line& first, const Line& second, const PathMeeting& meeting) {
+  const auto near = [&](const WorkCurve& curve, double arc) {
+    const std::vector<double> arcs = detail::arcsOf(mesh, curve);
+    const double all = arcs[curve.linkCount()];
+    std::vector<SurfacePoint> points;
+    for (std::size_t i = 0; i < curve.data.size(); ++i) {
+      const double off = std::abs(arcs[i] - arc);
+      if (std::min(off, curve.closed ? all - off : off) < kSameCrossing) {
+        points.push_back(curve.data[i]);
+      }
+    }
+    return points;
+  };
+  const auto ofFirst = near(first.curve, meeting.a), ofSecond = near(second.curve, meeting.b);
+  return std::any_of(ofFirst.begin(), ofFirst.end(), [&](const SurfacePoint& point) {
+    return std::find(ofSecond.begin(), ofSecond.end(), point) != ofSecond.end();
+  });
+}
+
 /// Makes a meeting one data point of both lines. One that is there already is kept: others may
 /// share it.
 Result<void> share(Sketch& sketch, std::vector<Line>& lines, Line& first, Line& second,
-                   const PathMeeting& meeting) {
+                   const PathMeeting& meeting, int round) {
   const Mesh& mesh = sketch.mesh();
+  if (isShared(mesh, first, second, meeting)) return {};
   const std::size_t before = first.curve.data.size(), beforeSecond = second.curve.data.size();
   const std::size_t inFirst = detail::insertData(mesh, first.curve, meeting.a);
   const std::size_t inSecond = detail::insertData(mesh, second.curve, meeting.b);
   const bool isNewInFirst = first.curve.data.size() > before;
   const bool isNewInSecond = second.curve.data.size() > beforeSecond;
-  first.isChanged = first.isChanged || isNewInFirst;
-  second.isChanged = second.isChanged || isNewInSecond;
+  for (auto& [line, isNew] : {std::pair(&first, isNewInFirst), {&second, isNewInSecond}}) {
+    if (!isNew) continue;
+    line->lastRound = round;
+    line->isStale = true;
+  }
   const SurfacePoint a = first.curve.data[inFirst], b = second.curve.data[inSecond];
   if (a == b) return {};
   if (isNewInSecond && detail::nudgeData(mesh, second.curve, inSecond, a)) return {};
   if (isNewInFirst && detail::nudgeData(mesh, first.curve, inFirst, b)) return {};
-  return replaceEverywhere(sketch, lines, b, a);
+  return replaceEverywhere(sketch, lines, b, a, round);
 }
 
 }  // namespace
@@ -89,27 +121,41 @@ Result<Edited> shareCrossings(const Document& document, std::span<const std::str
     line.path = detail::pathOf(line.curve);
     lines.push_back(std::move(line));
   }
-  // Once more, since a point that was replaced can move a meeting next to it.
-  for (std::size_t pair = 0; pair < kRounds * lines.size() * lines.size(); ++pair) {
-    const std::size_t a = pair / lines.size() % lines.size(), b = pair % lines.size();
-    if (b > a) {
-      const auto meetings = findMeetings(sketch.mesh(), lines[a].path, lines[b].path);
-      for (const PathMeeting& meeting : meetings) {
-        if (const Result<void> done = share(sketch, lines, lines[a], lines[b], meeting); !done) {
-          return done.error();
+  const auto pathOf = [](Line& line) -> const SurfacePath& {
+    if (line.isStale) line.path = detail::pathOf(line.curve);
+    line.isStale = false;
+    return line.path;
+  };
+  // Until nothing changes any more: pairs of which one was changed since they were looked at.
+  bool isSettled = false;
+  for (int round = 1; round <= kMostRounds && !isSettled; ++round) {
+    isSettled = true;
+    for (std::size_t a = 0; a < lines.size(); ++a) {
+      for (std::size_t b = a + 1; b < lines.size(); ++b) {
+        Line &first = lines[a], &second = lines[b];
+        if (std::max(first.lastRound, second.lastRound) + 1 < round) continue;
+        const auto meetings = findMeetings(sketch.mesh(), pathOf(first), pathOf(second));
+        for (const PathMeeting& meeting : meetings) {
+          const Result<void> done = share(sketch, lines, first, second, meeting, round);
+          if (!done) return done.error();
         }
+        // Also where nothing had to be added the data points are the truth from now on.
+        first.isMet = first.isMet || !meetings.empty();
+        second.isMet = second.isMet || !meetings.empty();
       }
-      if (meetings.empty()) continue;
-      // Also where nothing had to be added the data points are the truth from now on.
-      for (Line* line : {&lines[a], &lines[b]}) {
-        line->isChanged = line->isChanged || sketch.edit(line->id).dataPoints.empty();
-      }
-      lines[a].path = detail::pathOf(lines[a].curve);
-      lines[b].path = detail::pathOf(lines[b].curve);
+    }
+    for (Line& line : lines) {
+      if (line.lastRound < round) continue;
+      isSettled = false;
+      // As it will be read from its data points: also rounding moves the meetings of lines that run
+      // along each other.
+      detail::settle(sketch.linker(), sketch.mesh(), line.curve, detail::Links::All);
+      line.isStale = true;
     }
   }
   for (const Line& line : lines) {
-    if (!line.isChanged) continue;
+    const bool isNewlyPlaced = line.isMet && sketch.edit(line.id).dataPoints.empty();
+    if (line.lastRound == 0 && !isNewlyPlaced) continue;
     sketch.store(line.id, line.curve);
     edited.curves.push_back(line.id);
   }

@@ -175,7 +175,8 @@ bool isSameWay(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b) {
 
 }  // namespace
 
-void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve) {
+void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve, Links links) {
+  const std::size_t least = links == Links::All ? 2 : kShortLink;
   // A closed curve has three data points at least.
   while (curve.closed && curve.data.size() < 3 && curve.linkCount() == curve.data.size()) {
     const std::vector<double> arcs = arcsOf(mesh, curve);
@@ -191,9 +192,11 @@ void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve) {
     std::vector<double> halves;
     const std::vector<double> arcs = arcsOf(mesh, curve);
     for (std::size_t i = 0; i < curve.linkCount(); ++i) {
-      if (curve.links[i].faceOfSegment.size() < kShortLink) continue;
-      const Result<SurfacePath> again = linker.link(curve.from(i), curve.to(i));
-      if (!again || !isSameWay(mesh, curve.links[i], *again)) {
+      if (curve.links[i].faceOfSegment.size() < least) continue;
+      Result<SurfacePath> again = linker.link(curve.from(i), curve.to(i));
+      if (again && isSameWay(mesh, curve.links[i], *again)) {
+        curve.links[i] = *std::move(again);
+      } else {
         halves.push_back(0.5 * (arcs[i] + arcs[i + 1]));
       }
     }
@@ -201,6 +204,31 @@ void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve) {
     for (const double arc : halves) insertData(mesh, curve, arc);
   }
 }
+
+namespace {
+
+/// Where a data point is the next one too, bit for bit: one of them goes, with the link between
+/// them. Two are left in any case.
+void joinWithNext(WorkCurve& curve, std::size_t index) {
+  const std::size_t n = curve.data.size(), next = (index + 1) % n;
+  const bool hasNext = curve.closed || index + 1 < n;
+  if (!hasNext || n <= 2 || !(curve.data[index] == curve.data[next])) return;
+  curve.isControl[next] = curve.isControl[next] || curve.isControl[index];
+  curve.isCorner[next] = curve.isCorner[next] || curve.isCorner[index];
+  const auto at = static_cast<std::ptrdiff_t>(index);
+  curve.data.erase(curve.data.begin() + at);
+  curve.isControl.erase(curve.isControl.begin() + at);
+  curve.isCorner.erase(curve.isCorner.begin() + at);
+  curve.links.erase(curve.links.begin() + at);
+}
+
+void joinRepeated(WorkCurve& curve, std::size_t index) {
+  joinWithNext(curve, index);
+  const std::size_t n = curve.data.size();
+  joinWithNext(curve, (index + n - 1) % n);
+}
+
+}  // namespace
 
 bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index, const SurfacePoint& point) {
   std::vector<std::pair<std::size_t, SurfacePath>> made;
@@ -227,6 +255,7 @@ bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index, const Surf
   }
   for (auto& [i, link] : made) curve.links[i] = std::move(link);
   curve.data[index] = point;
+  joinRepeated(curve, index);
   return true;
 }
 
@@ -234,6 +263,7 @@ Result<void> replaceData(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& cu
                          std::size_t index, const SurfacePoint& point) {
   if (nudgeData(mesh, curve, index, point)) return {};
   curve.data[index] = point;
+  joinRepeated(curve, index);
   return linkAll(linker, curve);
 }
 

@@ -46,6 +46,7 @@ Result<WorkCurve> makeWorkCurve(GeodesicLinker& linker, const Mesh& mesh,
 /// @return its index.
 std::size_t insertData(const Mesh& mesh, WorkCurve& curve, double arc);
 /// Puts a data point a rounding aside, where it is another curve's to the last bit; the way stays.
+/// Where it becomes its neighbour's too, one data point is left.
 /// @return false, and nothing changed, where the new point lies in none of the old one's faces.
 [[nodiscard]] bool nudgeData(const Mesh& mesh, WorkCurve& curve, std::size_t index,
                              const SurfacePoint& point);
@@ -54,8 +55,10 @@ Result<void> replaceData(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& cu
                          std::size_t index, const SurfacePoint& point);
 /// A part of a locally shortest link need not be the link between its own ends, where a way on the
 /// other side of a limb is shorter. Adds data points until linking anew gives the same curve, so
-/// that a stored curve is the one that was edited.
-void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve);
+/// that a stored curve is the one that was edited; links are then what they will be, bit for bit.
+/// Short links differ by rounding only, and are left as they are unless all are asked for.
+enum class Links { Long, All };
+void settle(GeodesicLinker& linker, const Mesh& mesh, WorkCurve& curve, Links links = Links::Long);
 /// The closed curve begun at another data point.
 void rotate(WorkCurve& curve, std::size_t start);
 void reverse(WorkCurve& curve);

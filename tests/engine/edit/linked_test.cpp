@@ -3,8 +3,10 @@
 #include <gtest/gtest.h>
 
 #include <Eigen/Geometry>
+#include <algorithm>
 #include <cmath>
 
+#include "support/curve_checks.h"
 #include "support/edit_support.h"
 #include "support/result_printing.h"
 #include "toile/edit/draw.h"
@@ -146,6 +148,46 @@ TEST(Lines, MovingCarriesWhatEndsOnThem) {
             placeOf(document, foot).x() - 8);
   EXPECT_EQ(curveOf(*moved, "branch").dataPoints.back(),
             curveOf(shared->document, "branch").dataPoints.back());
+}
+
+// Lines along each other meet wherever rounding lets them; what is stored must be read as it was
+// shared. One line takes its way at once, the others in steps, aside by ever smaller parts of a mm.
+TEST(Network, SharesAllMeetingsOfLinesThatRunAlongEachOther) {
+  for (const double aside : {0.0, 1e-9, 1e-6, 1e-5, 1e-3}) {
+    Document document = test::documentOn("builtin:torso@1");
+    const Mesh& mesh = *document.model->mesh;
+    const SurfacePoint from = near(document, {-110, -500, 930}),
+                       to = near(document, {110, -500, 1060});
+    const auto whole =
+        drawShortest(document, std::vector<SurfacePoint>{from, to}, {"whole", "", CurveKind::Seam});
+    ASSERT_TRUE(whole) << whole.error();
+    document = whole->document;
+    const SurfacePath path = pathOf(document, "whole");
+    for (const int steps : {3, 7}) {
+      std::vector<SurfacePoint> points;
+      for (int i = 0; i <= steps; ++i) {
+        const double part = (i + 0.3) / (steps + 0.6);
+        const Vector3d on = position(mesh, pointAtFraction(mesh, path, part));
+        points.push_back(near(document, on + Vector3d(0, 0, i % 2 == 0 ? aside : -aside)));
+      }
+      const auto drawn = drawShortest(document, points);
+      ASSERT_TRUE(drawn) << drawn.error();
+      document = drawn->document;
+    }
+    const auto shared = shareCrossings(document);
+    ASSERT_TRUE(shared) << shared.error();
+    GeodesicLinker linker(document.model->mesh);
+    const std::string context = "aside " + std::to_string(1e6 * aside) + " nm";
+    test::expectAllShared(shared->document, linker, context);
+    for (const StylingCurve& curve : shared->document.design->curves) {
+      const auto& data = curve.dataPoints;
+      EXPECT_EQ(std::adjacent_find(data.begin(), data.end()), data.end()) << context;
+    }
+    // What is shared stays as it is.
+    const auto again = shareCrossings(shared->document);
+    ASSERT_TRUE(again) << again.error();
+    EXPECT_EQ(*again->document.design, *shared->document.design) << context;
+  }
 }
 
 TEST(Network, SaysWhichCrossingsItCannotShare) {

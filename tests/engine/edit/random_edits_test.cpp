@@ -73,14 +73,12 @@ TEST(RandomEdits, NeverDamageADocument) {
     GeodesicLinker linker(model.mesh);
     test::RandomEdits edits(model, static_cast<unsigned>(sequence + 1));
     Document document{std::make_shared<const Design>(), shared};
-    std::string story;
+    std::string context = "sequence " + std::to_string(sequence) + " on " + model.name + ": ";
     // Undo by value: every document of the sequence, and a copy of it from when it was new.
-    std::vector<std::pair<Document, Design>> history{{document, *document.design}};
+    std::vector<std::pair<Document, Design>> hicontext{{document, *document.design}};
     for (int i = 0; i < kEdits; ++i) {
       test::RandomEdits::Step step = edits.next(document);
-      story += step.name + (step.document ? ", " : "!, ");
-      const std::string context =
-          "sequence " + std::to_string(sequence) + " on " + model.name + ": " + story;
+      context += step.name + (step.document ? ", " : "!, ");
       (step.document ? done[step.name].first : done[step.name].second) += 1;
       if (!step.document) {
         ASSERT_FALSE(step.document.error().message.empty());
@@ -88,7 +86,7 @@ TEST(RandomEdits, NeverDamageADocument) {
       }
       const std::vector<std::string> sharing = test::sharingWith(*document.design, step.curve);
       document = *step.document;
-      history.emplace_back(document, *document.design);
+      hicontext.emplace_back(document, *document.design);
       if (step.name == "share" || step.name == "fair") {
         test::expectAllShared(document, linker, context);
       }
@@ -99,20 +97,20 @@ TEST(RandomEdits, NeverDamageADocument) {
       if (i % 5 == 4) test::expectSound(document, linker, context);
       if (testing::Test::HasFatalFailure()) return;
     }
-    for (const auto& [past, copy] : history) {
-      ASSERT_TRUE(*past.design == copy) << story << " changed a document that was handed on";
+    for (const auto& [past, copy] : hicontext) {
+      ASSERT_TRUE(*past.design == copy) << context << " changed a document that was handed on";
     }
     for (const StylingCurve& curve : document.design->curves) {
       if (curve.dataPoints.empty() || !model.symmetry) continue;
-      test::expectMirrorOfMirror(document, curve.id, story);
+      test::expectMirrorOfMirror(document, curve.id, context);
       break;
     }
     if (testing::Test::HasFatalFailure()) return;
     const std::string text = writeDesign(*document.design);
     const Result<Design> read = parseDesign(text, "saved");
-    ASSERT_TRUE(read) << story << read.error();
-    ASSERT_TRUE(*read == *document.design) << story;
-    ASSERT_EQ(writeDesign(*read), text) << story;
+    ASSERT_TRUE(read) << context << read.error();
+    ASSERT_TRUE(*read == *document.design) << context;
+    ASSERT_EQ(writeDesign(*read), text) << context;
   }
   for (const auto& [name, counts] : done) {
     std::cout << name << ": " << counts.first << " done, " << counts.second << " refused\n";
