@@ -5,9 +5,12 @@
 #include <QSettings>
 #include <QSurfaceFormat>
 #include <QTimer>
+#include <cstdio>
+#include <memory>
 
 #include "app/main_window.h"
 #include "app/palette.h"
+#include "app/trace.h"
 #include "toile/core/version.h"
 
 int main(int argc, char** argv) {
@@ -32,12 +35,27 @@ int main(int argc, char** argv) {
   parser.addPositionalArgument(QStringLiteral("FILE"),
                                QApplication::translate("main", "A design (.toile) to open."),
                                QStringLiteral("[FILE]"));
+  const QCommandLineOption traceOption(
+      QStringLiteral("trace"),
+      QApplication::translate("main", "Write how long the hand waited to a file."),
+      QStringLiteral("FILE"));
+  parser.addOption(traceOption);
   parser.process(app);
 
   using namespace toile::studio;
   const bool dark = QSettings().value(QStringLiteral("theme")).toString() == QLatin1String("dark");
   applyTheme(app, dark ? Theme::Dark : Theme::Light);
   MainWindow window;
+  std::unique_ptr<Trace> trace;
+  if (parser.isSet(traceOption)) {
+    trace = std::make_unique<Trace>(window.session(), window.viewport(), window.patternView(),
+                                    parser.value(traceOption).toStdString());
+    if (!trace->isOpen()) {
+      std::fprintf(stderr, "toile-studio: %s cannot be written\n",
+                   qPrintable(parser.value(traceOption)));
+      return 2;
+    }
+  }
   window.show();
   const QStringList files = parser.positionalArguments();
   // After the window is there, so that it is never waited for.
