@@ -21,10 +21,12 @@ Trace::Trace(Session& session, Viewport& viewport, PatternView& pattern,
   clock_.start();
   viewport.installEventFilter(this);
   pattern.installEventFilter(this);
+  connect(&viewport, &Viewport::painted, this, [this] {
+    if (redrawSince_) note("drawing", clockNow() - paintedFrom_);
+  });
   connect(&session, &Session::linesChanged, this, &Trace::linesChanged);
   connect(&session.worker(), &PatternWorker::answered, this, &Trace::answered);
   connect(&session, &Session::patternChanged, this, &Trace::patternChanged);
-  connect(&viewport, &QOpenGLWidget::frameSwapped, this, &Trace::shown);
 }
 
 Trace::~Trace() {
@@ -52,10 +54,17 @@ const std::vector<double>& Trace::waits(const char* kind) const {
 }
 
 bool Trace::eventFilter(QObject* watched, QEvent* event) {
-  if (watched == &pattern_) {
-    if (event->type() == QEvent::Paint) patternPainted_ = true;
+  if (event->type() == QEvent::Paint) {
+    if (watched == &pattern_) patternPainted_ = true;
+    if (watched == &viewport_) {
+      bodyPainted_ = true;
+      paintedFrom_ = clockNow();
+    }
+    // Widgets that wait for it are painted and given to the window system in one go; then this.
+    QMetaObject::invokeMethod(this, &Trace::shown, Qt::QueuedConnection);
     return false;
   }
+  if (watched != &viewport_) return false;
   if (event->type() != QEvent::MouseMove && event->type() != QEvent::MouseButtonPress &&
       event->type() != QEvent::MouseButtonRelease) {
     return false;
@@ -78,6 +87,7 @@ void Trace::linesChanged() {
   if (!isDragging_ || !session_.isPreview()) return;
   note("line", clockNow() - handledAt_);
   if (!redrawSince_) redrawSince_ = eventAt_;
+  bodyPainted_ = false;
   moves_[session_.shown().design] = eventAt_;
 }
 
@@ -87,19 +97,20 @@ void Trace::answered(const PatternAnswer& answer) {
   const auto move = moves_.find(answer.document.design);
   if (move == moves_.end() || !answer.pattern) return;
   previewSince_ = move->second;
-  patternPainted_ = false;
   moves_.erase(move);
 }
 
 void Trace::patternChanged() {
   if (!releaseSince_ || session_.isPatternPreview() || !session_.isPatternCurrent()) return;
   fullCame_ = true;
-  patternPainted_ = false;
 }
 
 void Trace::shown() {
-  if (redrawSince_) write("redraw", *std::exchange(redrawSince_, std::nullopt));
-  if (!patternPainted_) return;
+  if (bodyPainted_ && redrawSince_) {
+    write("redraw", *std::exchange(redrawSince_, std::nullopt));
+  }
+  bodyPainted_ = false;
+  if (!std::exchange(patternPainted_, false)) return;
   if (previewSince_) write("preview", *std::exchange(previewSince_, std::nullopt));
   if (fullCame_ && releaseSince_) {
     write("full", *std::exchange(releaseSince_, std::nullopt));

@@ -22,7 +22,7 @@ struct PatternAnswer;
 /// What the hand waits for, measured while the program is used: `toile-studio --trace FILE`.
 ///
 /// Time counts from the time stamp that the window system put on the mouse event, queue and
-/// compression of events included, to the swap of the buffers that show the answer. A line of the
+/// compression of events included, until the picture with the answer is given to it. A line of the
 /// file is "time-ms <tab> kind <tab> waited-ms"; kinds:
 ///   redraw   move of a held mouse -> the picture with the line as it is then. Of moves that came
 ///            before one picture the first counts.
@@ -30,6 +30,7 @@ struct PatternAnswer;
 ///   full     release of the button -> the exact pattern
 /// and, of these, without queues and drawing:
 ///   line     the engine's work on the curve, on the thread that draws
+///   drawing  of the body's pane
 ///   engine-preview, engine-full   its work on the pattern, on the other thread
 /// It ends with "# kind count median p95 max" lines.
 class Trace final : public QObject {
@@ -58,7 +59,8 @@ class Trace final : public QObject {
   PatternView& pattern_;
   QFile file_;
   QElapsedTimer clock_;
-  double eventAt_ = 0;    ///< ms, of the event that is handled: its time stamp
+  double eventAt_ = 0;  ///< ms, of the event that is handled: its time stamp
+  double paintedFrom_ = 0;
   double handledAt_ = 0;  ///< when its handling began
   bool isDragging_ = false;
   std::optional<double> redrawSince_;  ///< the first move that no picture shows yet
@@ -67,7 +69,7 @@ class Trace final : public QObject {
   std::optional<double> previewSince_;  ///< the move whose preview has come and is not painted
   std::optional<double> releaseSince_;
   bool fullCame_ = false;
-  bool patternPainted_ = false;
+  bool bodyPainted_ = false, patternPainted_ = false;
   std::map<std::string, std::vector<double>> waits_;
 };
 

@@ -115,6 +115,8 @@ void PatternView::takePattern() {
     }
   }
   if (fitted_) fitAll();
+  // A preview at once: an update waits for its turn as long as the mouse keeps moving.
+  if (session_.isPatternPreview() && isVisible()) return repaint();
   update();
 }
 

@@ -18,6 +18,7 @@ namespace toile::studio {
 struct SeeThrough {
   Eigen::Vector3d place;
   double strength = 1;  ///< 0..1, to fade in and out
+  friend bool operator==(const SeeThrough&, const SeeThrough&) = default;
 };
 
 struct BodyLook {
@@ -26,6 +27,7 @@ struct BodyLook {
   bool strainOneSided = false;  ///< shear has no sign
   bool edges = false;
   std::optional<SeeThrough> seeThrough;
+  friend bool operator==(const BodyLook&, const BodyLook&) = default;
 };
 
 /// Draws ground and body with OpenGL 3.3. All calls need the widget's context.

@@ -20,18 +20,12 @@ constexpr int kRest = 160;    // ms after which the picture is drawn finely
 
 }  // namespace
 
-Viewport::Viewport(Session& session, QWidget* parent) : QOpenGLWidget(parent), session_(session) {
+Viewport::Viewport(Session& session, QWidget* parent) : GlCanvas(parent), session_(session) {
   setMouseTracking(true);
   setFocusPolicy(Qt::StrongFocus);
   setMinimumSize(360, 300);
   setAccessibleName(tr("Body"));
   setObjectName(QStringLiteral("viewport"));
-  QSurfaceFormat wanted = format();
-  wanted.setVersion(3, 3);
-  wanted.setProfile(QSurfaceFormat::CoreProfile);
-  wanted.setDepthBufferSize(24);
-  wanted.setStencilBufferSize(8);
-  setFormat(wanted);
   clock_.start();
 
   connect(&session, &Session::workStarted, this, &Viewport::bodyChanged);
@@ -64,8 +58,9 @@ Viewport::Viewport(Session& session, QWidget* parent) : QOpenGLWidget(parent), s
 }
 
 Viewport::~Viewport() {
-  makeCurrent();
-  fine_.reset();
+  if (!makeCurrent()) return;
+  bodyPicture_.reset();
+  fineBody_.reset();
   body_ = BodyLayer();
   lines_ = LineLayer();
   doneCurrent();

@@ -2,9 +2,6 @@
 #pragma once
 
 #include <QElapsedTimer>
-#include <QOpenGLExtraFunctions>
-#include <QOpenGLFramebufferObject>
-#include <QOpenGLWidget>
 #include <QTimer>
 #include <QVariantAnimation>
 #include <memory>
@@ -12,13 +9,14 @@
 #include "app/session.h"
 #include "viewport/body_layer.h"
 #include "viewport/camera.h"
+#include "viewport/gl_canvas.h"
 #include "viewport/line_layer.h"
 #include "viewport/navigation.h"
 
 namespace toile::studio {
 
 /// The body with its lines, and the hands on it: turns mouse and pen into events for the tool.
-class Viewport final : public QOpenGLWidget, protected QOpenGLExtraFunctions {
+class Viewport final : public GlCanvas {
   Q_OBJECT
  public:
   explicit Viewport(Session& session, QWidget* parent = nullptr);
@@ -47,12 +45,12 @@ class Viewport final : public QOpenGLWidget, protected QOpenGLExtraFunctions {
  Q_SIGNALS:
   void cameraChanged();
   void contextMenuWanted(const QPoint& globalPlace);
-  void painted();  ///< for the trace of latencies
 
  protected:
   void initializeGL() override;
-  void resizeGL(int width, int height) override;
-  void paintGL() override;
+  void paintGL(const QSize& size) override;
+  void paintOver(QPainter& painter) override;
+  void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
@@ -78,8 +76,7 @@ class Viewport final : public QOpenGLWidget, protected QOpenGLExtraFunctions {
   void fitBox(const std::vector<Eigen::Vector3d>& points);
   [[nodiscard]] std::vector<Eigen::Vector3d> selectedPoints() const;
   [[nodiscard]] std::vector<DrawnLine> drawnLines(const Overlay& overlay) const;
-  void drawScene(const Overlay& overlay);
-  void paintOverlay(const Overlay& overlay);
+  void drawBody(const QSize& size, const Overlay& overlay);
 
   Session& session_;
   Camera camera_;
@@ -97,8 +94,20 @@ class Viewport final : public QOpenGLWidget, protected QOpenGLExtraFunctions {
   StrainMeasure measure_ = StrainMeasure::Area;
   BodyLook look_;
   bool seeThrough_ = false;
-  std::unique_ptr<QOpenGLFramebufferObject> fine_;
-  bool coarse_ = false;  ///< while something moves: without smooth edges of the body
+  /// Ground and body with their depth. While a line is dragged they stay as they are.
+  struct BodyPicture {
+    Camera camera;
+    QSize size;
+    std::uint64_t vertices = 0;
+    BodyLook look;
+    bool fine = false;
+    friend bool operator==(const BodyPicture&, const BodyPicture&) = default;
+  };
+  std::unique_ptr<QOpenGLFramebufferObject> bodyPicture_, fineBody_;
+  std::optional<BodyPicture> drawnBody_;
+  std::uint64_t verticesNumber_ = 0;
+  Overlay overlay_;      ///< of the picture that is painted
+  bool coarse_ = false;  ///< while the view moves: without smooth edges of the body
   QTimer rest_;          ///< until it is drawn finely again
 
   ViewGesture gesture_ = ViewGesture::None;

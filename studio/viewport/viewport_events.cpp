@@ -60,11 +60,9 @@ void Viewport::moved(const PointerEvent& event) {
       break;
   }
   if (button_ != Qt::NoButton && !toolHasPress_) return;
-  if (toolHasPress_) {
-    coarse_ = true;
-    rest_.start();
-  }
   session_.pointer(PointerAction::Move, event);
+  // At once: an update waits for its turn as long as the mouse keeps moving.
+  if (toolHasPress_ && session_.isPreview()) repaint();
 }
 
 void Viewport::released(const PointerEvent& event, const QPoint& globalPlace) {
@@ -187,20 +185,20 @@ void Viewport::keyPressEvent(QKeyEvent* event) {
     default:
       break;
   }
-  if (!key || !session_.hasWork()) return QOpenGLWidget::keyPressEvent(event);
+  if (!key || !session_.hasWork()) return GlCanvas::keyPressEvent(event);
   if (session_.key(*key)) return;
   if (*key == ToolKey::Escape && session_.tool().id() != ToolId::Select) {
     session_.setTool(ToolId::Select);
   } else if (*key == ToolKey::Next || *key == ToolKey::Previous) {
-    QOpenGLWidget::focusNextPrevChild(*key == ToolKey::Next);
+    GlCanvas::focusNextPrevChild(*key == ToolKey::Next);
   } else {
-    QOpenGLWidget::keyPressEvent(event);
+    GlCanvas::keyPressEvent(event);
   }
 }
 
 void Viewport::keyReleaseEvent(QKeyEvent* event) {
   if (event->key() == Qt::Key_Space && !event->isAutoRepeat()) space_ = false;
-  QOpenGLWidget::keyReleaseEvent(event);
+  GlCanvas::keyReleaseEvent(event);
 }
 
 bool Viewport::focusNextPrevChild(bool) {

@@ -49,19 +49,18 @@ DrawnLine inkOf(CurveKind kind) {
 }  // namespace
 
 void Viewport::initializeGL() {
-  initializeOpenGLFunctions();
   body_.initialize();
   lines_.initialize();
   verticesAreOld_ = true;
 }
 
-void Viewport::resizeGL(int, int) {
-  fine_.reset();
+void Viewport::resizeEvent(QResizeEvent*) {
   session_.setScreen(screen());
 }
 
 void Viewport::updateVertices() {
   verticesAreOld_ = false;
+  ++verticesNumber_;
   if (!shape_) return;
   body_.setVertices(makeBodyVertices(*shape_, session_.pattern().get(), colouring_, measure_));
 }
@@ -151,56 +150,64 @@ std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
   return drawn;
 }
 
-void Viewport::drawScene(const Overlay& overlay) {
-  const Screen shown = screen();
+void Viewport::drawBody(const QSize& size, const Overlay& overlay) {
+  BodyPicture wanted{camera_, size, verticesNumber_, look_, !coarse_};
+  if (overlay.seeThroughTo) {
+    wanted.look.seeThrough = SeeThrough{*overlay.seeThroughTo};
+    wanted.fine = false;  // another one at the next move
+  }
+  if (drawnBody_ && drawnBody_->fine) wanted.fine = true;  // a finer one serves as well
+  if (drawnBody_ == wanted) return;
+  wanted.fine = !coarse_ && !overlay.seeThroughTo;
+  drawnBody_ = wanted;
+
+  const auto make = [&](std::unique_ptr<QOpenGLFramebufferObject>& buffer, int samples) {
+    if (buffer && buffer->size() == size) return;
+    QOpenGLFramebufferObjectFormat format;
+    format.setSamples(samples);
+    format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
+    buffer = std::make_unique<QOpenGLFramebufferObject>(size, format);
+  };
+  make(bodyPicture_, 0);
+  if (wanted.fine) make(fineBody_, kFineSamples);
+  QOpenGLFramebufferObject& buffer = wanted.fine ? *fineBody_ : *bodyPicture_;
+  buffer.bind();
+  Screen pixels = screen();
+  pixels.width = size.width();
+  pixels.height = size.height();
   const Ball ball = ballOf(*session_.document().model);
-  const Eigen::Matrix4d clip = shown.clipFromWorld(ball.centre, ball.radius);
-  Screen pixels = shown;
-  pixels.width *= devicePixelRatioF();
-  pixels.height *= devicePixelRatioF();
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   body_.drawGround(*this);
-  BodyLook look = look_;
-  if (overlay.seeThroughTo) look.seeThrough = SeeThrough{*overlay.seeThroughTo};
-  body_.draw(*this, pixels, clip, look);
-  lines_.draw(*this, shown, clip, devicePixelRatioF(), drawnLines(overlay), seeThrough_);
-}
-
-void Viewport::paintGL() {
-  if (verticesAreOld_) updateVertices();
-  const Overlay overlay = session_.hasWork() ? session_.tool().overlay(session_) : Overlay();
-  if (session_.hasWork()) {
-    const QSize size = this->size() * devicePixelRatioF();
-    if (coarse_) {
-      drawScene(overlay);
-    } else {
-      if (!fine_ || fine_->size() != size) {
-        QOpenGLFramebufferObjectFormat format;
-        format.setSamples(kFineSamples);
-        format.setAttachment(QOpenGLFramebufferObject::CombinedDepthStencil);
-        fine_ = std::make_unique<QOpenGLFramebufferObject>(size, format);
-      }
-      fine_->bind();
-      glViewport(0, 0, size.width(), size.height());
-      drawScene(overlay);
-      glBindFramebuffer(GL_READ_FRAMEBUFFER, fine_->handle());
-      glBindFramebuffer(GL_DRAW_FRAMEBUFFER, defaultFramebufferObject());
-      glBlitFramebuffer(0, 0, size.width(), size.height(), 0, 0, size.width(), size.height(),
-                        GL_COLOR_BUFFER_BIT, GL_NEAREST);
-      glBindFramebuffer(GL_FRAMEBUFFER, defaultFramebufferObject());
-    }
-    paintOverlay(overlay);
+  body_.draw(*this, pixels, screen().clipFromWorld(ball.centre, ball.radius), wanted.look);
+  if (wanted.fine) {
+    QOpenGLFramebufferObject::blitFramebuffer(bodyPicture_.get(), fineBody_.get(),
+                                              GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   }
-  Q_EMIT painted();
 }
 
-void Viewport::paintOverlay(const Overlay& overlay) {
-  glDisable(GL_DEPTH_TEST);
-  QPainter painter(this);
-  painter.setRenderHint(QPainter::Antialiasing);
+void Viewport::paintGL(const QSize& size) {
+  if (verticesAreOld_) updateVertices();
+  overlay_ = session_.hasWork() ? session_.tool().overlay(session_) : Overlay();
+  if (!session_.hasWork()) {
+    body_.drawGround(*this);
+    return;
+  }
+  drawBody(size, overlay_);
+  glBindFramebuffer(GL_READ_FRAMEBUFFER, bodyPicture_->handle());
+  glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer());
+  glBlitFramebuffer(0, 0, size.width(), size.height(), 0, 0, size.width(), size.height(),
+                    GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+  glBindFramebuffer(GL_FRAMEBUFFER, framebuffer());
+  const Ball ball = ballOf(*session_.document().model);
+  lines_.draw(*this, screen(), screen().clipFromWorld(ball.centre, ball.radius),
+              devicePixelRatioF(), drawnLines(overlay_), seeThrough_);
+}
+
+void Viewport::paintOver(QPainter& painter) {
+  if (!session_.hasWork()) return;
   const std::optional<Vector2d> cursor =
       lastPointer_ ? std::optional(lastPointer_->at) : std::nullopt;
-  paintToolOverlay(painter, overlay, session_, cursor);
+  paintToolOverlay(painter, overlay_, session_, cursor);
 }
 
 }  // namespace toile::studio
