@@ -13,6 +13,7 @@ void addBody(CLI::App& app, Session& session);
 void addDevelop(CLI::App& app, Session& session);
 void addRender(CLI::App& app, Session& session);
 void addStudio(CLI::App& app, Session& session);
+void addScan(CLI::App& app, Session& session);
 void addFit(CLI::App& app, Session& session);
 void addConvert(CLI::App& app, Session& session);
 void addCheckSewing(CLI::App& app, Session& session);

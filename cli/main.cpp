@@ -21,7 +21,7 @@ constexpr std::size_t kMaxThreads = 1024;
 
 // Sub-commands that design.md promises but that this version does not have: asking for one is
 // answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"scan", "warp"};
+constexpr std::array kLaterCommands = {"warp"};
 
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
@@ -114,6 +114,7 @@ int runProgram(int argc, char** argv) {
   addDevelop(app, session);
   addRender(app, session);
   addStudio(app, session);
+  addScan(app, session);
   addFit(app, session);
   addConvert(app, session);
   addCheckSewing(app, session);
