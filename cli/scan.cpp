@@ -60,8 +60,7 @@ void print(const CleanedScan& cleaned) {
 Result<void> writeFiles(const Arguments& arguments, const CleanedScan& cleaned,
                         Progress& progress) {
   const Mesh& mesh = *cleaned.model.mesh;
-  const std::string text =
-      arguments.out.extension() == ".obj" ? writeObj(mesh) : writePly(mesh);
+  const std::string text = arguments.out.extension() == ".obj" ? writeObj(mesh) : writePly(mesh);
   if (Result<void> done = writeFileWhole(arguments.out, text); !done) return done;
   if (arguments.reportFile) {
     Result<void> done = writeFileWhole(*arguments.reportFile, writeCleanReport(cleaned));
@@ -69,7 +68,11 @@ Result<void> writeFiles(const Arguments& arguments, const CleanedScan& cleaned,
   }
   if (!arguments.picture) return {};
   progress.step("draw the picture");
-  const Result<std::string> png = renderModel(cleaned.model, {}, &progress);
+  RenderOptions look;
+  look.style = RenderStyle::Plain;
+  look.views = {{"from above", Angle::degrees(25), Angle::degrees(30)},
+                {"from below", Angle::degrees(-25), Angle::degrees(-30)}};
+  const Result<std::string> png = renderModel(cleaned.model, look, &progress);
   if (!png) return png.error();
   return writeFileWhole(*arguments.picture, *png);
 }

@@ -22,15 +22,16 @@ namespace {
 using namespace scanning;
 using fitting::Target;
 
-constexpr double kBodyEdge = 8;          // mm
+constexpr double kBodyEdge = 8;           // mm
 constexpr double kObjectEdge = 1. / 200;  // of the diagonal
 // Of the diagonal: shorter edges make more triangles than anyone can use, longer ones no shape.
 constexpr double kShortestEdge = 1. / 3000;
 constexpr double kLongestEdge = 1. / 20;
 /// Of the edge length: the points that the surface is made from.
 constexpr double kSpacing = 0.7;
-/// Parts hang together over gaps of that share of the diagonal.
+/// Parts hang together over gaps of that share of the diagonal, or of what holds eight neighbours.
 constexpr double kLink = 1. / 150;
+constexpr double kLinkOfReach = 1.5;
 /// Of the largest part: smaller ones fly about; so large ones are another thing.
 constexpr double kSpeck = 0.02;
 constexpr double kAnother = 0.3;
@@ -128,34 +129,31 @@ class Cleaner {
       return refuse(ErrorCode::InvalidArgument,
                     fmt::format("the points of {} all lie in one place", scan_.name));
     }
-    if (options_.edge && (options_.edge->mm() < kShortestEdge * diagonal_ ||
-                          options_.edge->mm() > kLongestEdge * diagonal_)) {
-      return refuse(ErrorCode::InvalidArgument,
-                    fmt::format("an edge length of {:.4g} mm is out of range for {}, which is {:.4g} "
-                                "mm across: {:.4g} to {:.4g} mm",
-                                options_.edge->mm(), scan_.name, diagonal_,
-                                kShortestEdge * diagonal_, kLongestEdge * diagonal_));
-    }
     kept_ = scan_;
     if (!scan_.triangles.empty() && !isConsistentlyOriented(scan_)) {
       find("scan-mixed-faces",
            "the faces do not agree on an outside: it was found anew from the points");
       kept_ = spreadOut(scan_);
     }
+    double link = kLink * diagonal_;
     if (kept_.triangles.empty()) {
-      const std::vector<char> isAlone = findLonePoints(kept_.points);
+      const Crowding crowding = findCrowding(kept_.points);
+      link = std::max(link, kLinkOfReach * crowding.reach);
       const std::size_t before = kept_.points.size();
-      kept_ = keepPoints(kept_, [&](std::size_t i) { return isAlone[i] == 0; });
+      kept_ = keepPoints(kept_, [&](std::size_t i) { return crowding.isAlone[i] == 0; });
       cleaned_.report.lonePoints = before - kept_.points.size();
     }
-    parts_ = findParts(kept_, kLink * diagonal_);
+    parts_ = findParts(kept_, link);
     return isBody() ? findBody() : keepLargeParts();
   }
 
   /// The points on the faces, evenly, without the faces.
   [[nodiscard]] Scan spreadOut(const Scan& scan) const {
     const std::vector<Eigen::Vector3d> up(scan.points.size(), Eigen::Vector3d::UnitZ());
-    return {scan.name, spreadEvenly(scan, up, kSpacing * edge()).points, {}, {}};
+    return {scan.name,
+            spreadEvenly(scan, up, std::max(edge(), kShortestEdge * diagonal_)).points,
+            {},
+            {}};
   }
 
   [[nodiscard]] double edge() const {
@@ -247,14 +245,14 @@ class Cleaner {
       }
     }
     countFlying(isPartKept);
-    if (kept_.points.size() != target_.points.size()) target_ = fitting::makeTarget(kept_);
+    if (kept_.points.size() != target_->points.size()) target_ = fitting::makeTarget(kept_);
     return {};
   }
 
   /// Turns the normals outward and the points upright.
   Result<void> standUp() {
     if (isInsideOut()) {
-      for (Eigen::Vector3d& n : target_.normals) n = -n;
+      for (Eigen::Vector3d& n : target_->normals) n = -n;
       for (Triangle& t : kept_.triangles) std::swap(t[1], t[2]);
       if (const Result<void> done = explainInwardFaces(); !done) return done.error();
     } else if (hasBeenTurned()) {
@@ -262,7 +260,8 @@ class Cleaner {
     }
     if (!stand_) return {};
     cleaned_.standing.linear() = stand_->placement.similarity.rotation.transpose();
-    cleaned_.standing.translation() = -cleaned_.standing.linear() * stand_->placement.similarity.shift;
+    cleaned_.standing.translation() =
+        -cleaned_.standing.linear() * stand_->placement.similarity.shift;
     const double angle =
         Eigen::AngleAxisd(stand_->placement.similarity.rotation).angle() * 180 / M_PI;
     if (angle > kUpright) {
@@ -280,11 +279,11 @@ class Cleaner {
   [[nodiscard]] bool isInsideOut() const {
     if (stand_) return stand_->placement.scanIsInsideOut;
     Eigen::Vector3d middle = Eigen::Vector3d::Zero();
-    for (const Eigen::Vector3d& p : target_.points) middle += p;
-    middle /= static_cast<double>(target_.points.size());
+    for (const Eigen::Vector3d& p : target_->points) middle += p;
+    middle /= static_cast<double>(target_->points.size());
     double volume = 0;
-    for (std::size_t i = 0; i < target_.points.size(); ++i) {
-      volume += target_.area[i] * target_.normals[i].dot(target_.points[i] - middle);
+    for (std::size_t i = 0; i < target_->points.size(); ++i) {
+      volume += target_->area[i] * target_->normals[i].dot(target_->points[i] - middle);
     }
     return volume < 0;
   }
@@ -304,8 +303,12 @@ class Cleaner {
                                   "the whole scan is a mirror image, left for right. Which is it? "
                                   "--inward-faces turned, or --inward-faces mirrored",
                                   scan_.name));
-      case InwardFaces::Turned: find("scan-faces-turned", "the faces were turned outward"); break;
-      case InwardFaces::Mirrored: mirrorBack(); break;
+      case InwardFaces::Turned:
+        find("scan-faces-turned", "the faces were turned outward");
+        break;
+      case InwardFaces::Mirrored:
+        mirrorBack();
+        break;
     }
     return {};
   }
@@ -318,16 +321,25 @@ class Cleaner {
       normal = stand_->placement.similarity.rotation.col(0);
       on = stand_->placement.similarity.shift;
     }
-    for (Eigen::Vector3d& p : target_.points) p -= 2 * normal.dot(p - on) * normal;
-    for (Eigen::Vector3d& n : target_.normals) n -= 2 * normal.dot(n) * normal;
+    for (Eigen::Vector3d& p : target_->points) p -= 2 * normal.dot(p - on) * normal;
+    for (Eigen::Vector3d& n : target_->normals) n -= 2 * normal.dot(n) * normal;
     for (Triangle& t : kept_.triangles) std::swap(t[1], t[2]);
     find("scan-mirrored-back", "the scan was mirrored back, left for right");
   }
 
   Result<void> checkDensity() {
-    const double area = fitting::quantile(target_.area, 0.5);
+    if (options_.edge && (options_.edge->mm() < kShortestEdge * diagonal_ ||
+                          options_.edge->mm() > kLongestEdge * diagonal_)) {
+      return refuse(
+          ErrorCode::InvalidArgument,
+          fmt::format("an edge length of {:.4g} mm is out of range for {}, which is {:.4g} "
+                      "mm across: {:.4g} to {:.4g} mm",
+                      options_.edge->mm(), scan_.name, diagonal_, kShortestEdge * diagonal_,
+                      kLongestEdge * diagonal_));
+    }
+    const double area = fitting::quantile(target_->area, 0.5);
     const double most = (isBody() ? kSparseBody : kSparseObject) * diagonal_;
-    cloudSpacing_ = target_.isCloud ? std::sqrt(area) : 0;
+    cloudSpacing_ = target_->isCloud ? std::sqrt(area) : 0;
     if (cloudSpacing_ > most) {
       return refuse(ErrorCode::InvalidArgument,
                     fmt::format("the points of {} lie {:.3g} mm apart; {:.3g} mm or less is needed "
@@ -340,11 +352,11 @@ class Cleaner {
   Result<void> makeSurface() {
     step("scan: surface");
     Scan standing{scan_.name, {}, kept_.triangles, {}};
-    for (const Eigen::Vector3d& p : target_.points) {
+    for (const Eigen::Vector3d& p : target_->points) {
       standing.points.push_back(cleaned_.standing * p);
     }
-    for (Eigen::Vector3d& n : target_.normals) n = cleaned_.standing.linear() * n;
-    points_ = spreadEvenly(standing, target_.normals, kSpacing * edge());
+    for (Eigen::Vector3d& n : target_->normals) n = cleaned_.standing.linear() * n;
+    points_ = spreadEvenly(standing, target_->normals, kSpacing * edge());
     points_.spacing = std::max(points_.spacing, cloudSpacing_);
     const Result<Mesh> rough = reconstruct(points_, edge(), progress_);
     if (!rough) return rough.error();
@@ -381,11 +393,11 @@ class Cleaner {
     }
     report.inventedShare = report.inventedArea / total;
     if (report.inventedShare > options_.mostInvented.value()) {
-      return refuse(ErrorCode::InvalidArgument,
-                    fmt::format("{:.0f} % of the surface would be invented, most of it at {}: {} "
-                                "is not whole",
-                                100 * report.inventedShare, report.invented.front().place,
-                                scan_.name));
+      return refuse(
+          ErrorCode::InvalidArgument,
+          fmt::format("{:.0f} % of the surface would be invented, most of it at {}: {} "
+                      "is not whole",
+                      100 * report.inventedShare, report.invented.front().place, scan_.name));
     }
     if (!report.invented.empty()) {
       std::string places;
@@ -424,8 +436,7 @@ class Cleaner {
         distances[i] = cleaned_.model.index->closestPoint(points_.points[i]).distance;
       }
     });
-    report.scanToModel =
-        fitting::summarise(distances, std::vector<double>(distances.size(), 1.0));
+    report.scanToModel = fitting::summarise(distances, std::vector<double>(distances.size(), 1.0));
     if (report.handles > 0 && isBody()) {
       find("scan-handles",
            fmt::format("in {} places parts are grown together that are apart on a person (fingers, "
@@ -446,7 +457,7 @@ class Cleaner {
   Scan kept_;
   Parts parts_;
   std::optional<Stand> stand_;
-  Target target_{{}, {}, {}, {}, false, 0, fitting::KdTree({})};
+  std::optional<Target> target_;  ///< from sortOut() on
   OrientedPoints points_;
   CleanedScan cleaned_;
 };

@@ -79,10 +79,10 @@ OrientedPoints spreadEvenly(const Scan& scan, const std::vector<Eigen::Vector3d>
     const std::array<Eigen::Vector3d, 3> n{normals[t[0].index()], normals[t[1].index()],
                                            normals[t[2].index()]};
     const double area = (p[1] - p[0]).cross(p[2] - p[0]).norm() / 2;
-    const double longest = std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(),
-                                     (p[0] - p[2]).norm()});
-    const int parts = static_cast<int>(
-        std::clamp(std::ceil(kSamplesPerCube * longest / spacing), 1.0, double{kMostSamplesPerSide}));
+    const double longest =
+        std::max({(p[1] - p[0]).norm(), (p[2] - p[1]).norm(), (p[0] - p[2]).norm()});
+    const int parts = static_cast<int>(std::clamp(std::ceil(kSamplesPerCube * longest / spacing),
+                                                  1.0, double{kMostSamplesPerSide}));
     // The middles of the upright triangles of a regular division.
     const double weight = 2 * area / (parts * (parts + 1));
     for (int i = 0; i < parts; ++i) {

@@ -51,12 +51,14 @@ Parts findParts(const Scan& scan, double link) {
   std::vector<std::uint32_t> parent(cubes.size());
   std::iota(parent.begin(), parent.end(), 0U);
   const auto join = [&](std::uint32_t a, std::uint32_t b) {
-    const auto [low, high] = std::minmax(rootOf(parent, a), rootOf(parent, b));
-    parent[high] = low;
+    a = rootOf(parent, a);
+    b = rootOf(parent, b);
+    parent[std::max(a, b)] = std::min(a, b);
   };
   for (std::uint32_t c = 0; c < cubes.size(); ++c) {
     for (int k = 0; k < 27; ++k) {
-      const Eigen::Vector3i beside = cubes[c] + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
+      const Eigen::Vector3i beside =
+          cubes[c] + Eigen::Vector3i(k % 3 - 1, k / 3 % 3 - 1, k / 9 - 1);
       if (const auto found = numberOf.find(beside); found != numberOf.end()) join(c, found->second);
     }
   }
@@ -70,9 +72,8 @@ Parts findParts(const Scan& scan, double link) {
   for (std::uint32_t c = 0; c < cubes.size(); ++c) {
     if (sizeOfRoot[c] > 0) roots.push_back(c);
   }
-  std::stable_sort(roots.begin(), roots.end(), [&](std::uint32_t a, std::uint32_t b) {
-    return sizeOfRoot[a] > sizeOfRoot[b];
-  });
+  std::stable_sort(roots.begin(), roots.end(),
+                   [&](std::uint32_t a, std::uint32_t b) { return sizeOfRoot[a] > sizeOfRoot[b]; });
   Parts parts;
   std::vector<std::uint32_t> partOfRoot(cubes.size(), 0);
   for (std::uint32_t i = 0; i < roots.size(); ++i) {
@@ -85,7 +86,7 @@ Parts findParts(const Scan& scan, double link) {
   return parts;
 }
 
-std::vector<char> findLonePoints(const std::vector<Eigen::Vector3d>& points) {
+Crowding findCrowding(const std::vector<Eigen::Vector3d>& points) {
   const fitting::KdTree tree(points);
   std::vector<double> reach(points.size(), 0.0);
   constexpr std::size_t kBlock = 4096;
@@ -96,11 +97,9 @@ std::vector<char> findLonePoints(const std::vector<Eigen::Vector3d>& points) {
       reach[i] = std::sqrt(found.back().squaredDistance);
     }
   });
-  const double most = kAlone * fitting::quantile(reach, 0.5);
-  std::vector<char> isAlone;
-  isAlone.reserve(points.size());
-  for (const double r : reach) isAlone.push_back(r > most ? 1 : 0);
-  return isAlone;
+  Crowding crowding{fitting::quantile(reach, 0.5), {}};
+  for (const double r : reach) crowding.isAlone.push_back(r > kAlone * crowding.reach ? 1 : 0);
+  return crowding;
 }
 
 Scan keepPoints(const Scan& scan, const std::function<bool(std::size_t)>& isKept) {

@@ -19,8 +19,12 @@ struct Parts {
 /// @param link points nearer than this hang together; some up to twice as far
 [[nodiscard]] Parts findParts(const Scan& scan, double link);
 
-/// For a cloud: points whose neighbours are several times as far as usual.
-[[nodiscard]] std::vector<char> findLonePoints(const std::vector<Eigen::Vector3d>& points);
+/// How near the points of a cloud lie to each other.
+struct Crowding {
+  double reach = 0;           ///< mm that hold eight neighbours, of most points
+  std::vector<char> isAlone;  ///< needs several times that
+};
+[[nodiscard]] Crowding findCrowding(const std::vector<Eigen::Vector3d>& points);
 
 /// The points that are kept, with the faces between them.
 [[nodiscard]] Scan keepPoints(const Scan& scan, const std::function<bool(std::size_t)>& isKept);

@@ -35,9 +35,10 @@ std::string writeCleanReport(const CleanedScan& cleaned) {
                {"scanToModel", Json::array()},
                {"findings", Json::array()}};
   for (const InventedPatch& patch : r.invented) {
-    json["invented"].push_back({{"place", patch.place},
-                                {"centreMm", {patch.centre.x(), patch.centre.y(), patch.centre.z()}},
-                                {"areaMm2", patch.area}});
+    json["invented"].push_back(
+        {{"place", patch.place},
+         {"centreMm", {patch.centre.x(), patch.centre.y(), patch.centre.z()}},
+         {"areaMm2", patch.area}});
   }
   for (Eigen::Index row = 0; row < 3; ++row) {
     const auto line = cleaned.standing.matrix().row(row);

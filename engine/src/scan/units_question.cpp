@@ -21,9 +21,10 @@ Error askForUnit(const std::string& name, const std::string& what, double number
       taken ? fmt::format("{} is {:.4g} cm {} in {}: no person is", name,
                           number * millimetresPer(*taken) / 10, what, toString(*taken))
             : fmt::format("{} does not say its unit", name);
-  message += choices.empty() ? fmt::format("; no unit makes a person of it ({:.4g} {} in its own "
-                                           "numbers)",
-                                           number, what)
+  message += choices.empty() ? fmt::format(
+                                   "; no unit makes a person of it ({:.4g} {} in its own "
+                                   "numbers)",
+                                   number, what)
                              : fmt::format("; which is it? {}", choices);
   return {ErrorCode::UnitsMissing, std::move(message), {}};
 }

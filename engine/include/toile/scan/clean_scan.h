@@ -40,16 +40,16 @@ struct InventedPatch {
 };
 
 struct CleanReport {
-  std::size_t points = 0;        ///< of the scan
-  std::size_t lonePoints = 0;    ///< left out: far from their neighbours
-  std::size_t flyingParts = 0;   ///< left out: small, or not on the body
-  std::size_t flyingPoints = 0;  ///< of those parts
-  double spacing = 0;            ///< mm, between the points that were used
-  double edge = 0;               ///< mm, asked of the result
-  double height = 0;             ///< mm, of the result
-  DistanceSummary scanToModel;   ///< of the points that were used
-  double inventedArea = 0;       ///< mm2
-  double inventedShare = 0;      ///< of the result's area
+  std::size_t points = 0;               ///< of the scan
+  std::size_t lonePoints = 0;           ///< left out: far from their neighbours
+  std::size_t flyingParts = 0;          ///< left out: small, or not on the body
+  std::size_t flyingPoints = 0;         ///< of those parts
+  double spacing = 0;                   ///< mm, between the points that were used
+  double edge = 0;                      ///< mm, asked of the result
+  double height = 0;                    ///< mm, of the result
+  DistanceSummary scanToModel;          ///< of the points that were used
+  double inventedArea = 0;              ///< mm2
+  double inventedShare = 0;             ///< of the result's area
   std::vector<InventedPatch> invented;  ///< largest first
   int handles = 0;                      ///< parts grown together, such as a hand and a thigh
   std::size_t crossings = 0;            ///< pairs of faces
@@ -79,7 +79,8 @@ Result<Scan> readRawScan(const std::filesystem::path& path, std::optional<FileUn
 /// equal output, for any number of threads.
 ///
 /// @return the model with a report of what was invented, or an Error:
-///   InvalidArgument  nothing like a person, more than one, too sparse, an edge length out of range,
+///   InvalidArgument  nothing like a person, more than one, too sparse, an edge length out of
+///   range,
 ///                    more invented than allowed
 ///   UnitsMissing     no person is that tall
 ///   NotOrientable    faces look inwards and `inwardFaces` does not say why
