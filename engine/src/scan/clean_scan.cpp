@@ -439,8 +439,8 @@ class Cleaner {
     report.scanToModel = fitting::summarise(distances, std::vector<double>(distances.size(), 1.0));
     if (report.handles > 0 && isBody()) {
       find("scan-handles",
-           fmt::format("in {} places parts are grown together that are apart on a person (fingers, "
-                       "an arm and the trunk, the thighs)",
+           fmt::format("parts that are apart on a person are grown together (fingers, an arm and "
+                       "the trunk, the thighs): {} too many ways round",
                        report.handles));
     }
     if (report.crossings > 0) {
