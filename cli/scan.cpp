@@ -11,8 +11,8 @@
 #include "commands.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
-#include "toile/io/render.h"
 #include "toile/mesh/mesh_file.h"
+#include "toile/render/render.h"
 #include "toile/scan/clean_scan.h"
 
 namespace toile::cli {
