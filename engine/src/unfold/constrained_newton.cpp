@@ -21,6 +21,10 @@ constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
 constexpr double kStallStep = 1e-4;
 constexpr int kStallSteps = 3;
+/// A factor serves once more when its last step promised less than this share of the energy, and
+/// as long as each step promises less than this share of the one before.
+constexpr double kChordSlope = 5e-2;
+constexpr double kChordGain = 0.1;
 constexpr int kMaxHalvings = 40;
 constexpr int kMaxProjections = 30;
 /// Energy of an elastic line's ratio of 1, as a share of the piece's own: next to nothing, so that
@@ -46,7 +50,9 @@ double ConstrainedNewton::energy(const Plane& q) const {
   return sum;
 }
 
-bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indefinite) {
+/// The lengths are linearised at the same place.
+void ConstrainedNewton::assemble(const NewtonState& state, double indefinite) {
+  lengths_->linearise(state.q);
   matrix_.setZero();
   gradient_ = Eigen::VectorXd::Zero(state.q.size());
   for (const EnergyTerm* term : terms_)
@@ -64,7 +70,16 @@ bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indef
     matrix_.addDiagonal(first, 1, 0, 1);
     matrix_.addDiagonal(second, line.y() * line.y(), -line.x() * line.y(), line.x() * line.x());
   }
+}
+
+bool ConstrainedNewton::factor(const NewtonState& state) {
+  factoredAt_ = state.q;
   return factor_->factor(matrix_);
+}
+
+bool ConstrainedNewton::assembleAndFactor(const NewtonState& state, double indefinite) {
+  assemble(state, indefinite);
+  return factor(state);
 }
 
 void ConstrainedNewton::solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x) {
@@ -77,11 +92,11 @@ void ConstrainedNewton::solveTied(const Eigen::VectorXd& right, Eigen::VectorXd&
 // (H + penalty J^T J) d = -(g + J^T (lambda + penalty c)) fulfils H d + g + J^T lambda' = 0 with
 // lambda' = lambda + penalty (J d + c) exactly; repeating with the residual r = J d + c as the new
 // right side drives J d + c to zero.
-void ConstrainedNewton::solveStep(const Eigen::VectorXd& gradient, const Eigen::VectorXd& residual,
+void ConstrainedNewton::solveStep(const Eigen::VectorXd& pull, const Eigen::VectorXd& residual,
                                   Eigen::VectorXd& lambda, Plane& d) {
   constexpr int kMaxRepeats = 8;
-  Eigen::VectorXd right = gradient;
-  lengths_->addTransposeTimes(lambda + kPenalty * residual, right);
+  Eigen::VectorXd right = pull;
+  lengths_->addTransposeTimes(kPenalty * residual, right);
   right = -right;
   solveTied(right, d);
   Plane e;
@@ -149,64 +164,88 @@ Plane ConstrainedNewton::leastCorrection(const Eigen::VectorXd& residual, int so
   return s;
 }
 
+/// A step from a new factorisation; false if there is none that is definite.
+bool ConstrainedNewton::newtonStep(const NewtonState& state, const Eigen::VectorXd& c,
+                                   double& indefinite, Step& step) {
+  const bool near = lengths_->worst(c) < kNearLengths;
+  bool factored = factor(state);
+  lastStepWasConvex_ = factored && near && indefinite == 1;
+  if (!factored && near) {
+    indefinite *= 0.5;
+    factored = assembleAndFactor(state, indefinite);
+    if (!factored) {
+      indefinite *= 0.5;
+      factored = assembleAndFactor(state, 0);
+    }
+  }
+  if (!factored) return false;
+  step.lambda = state.lambda;
+  Eigen::VectorXd pull = gradient_;
+  lengths_->addTransposeTimes(state.lambda, pull);
+  solveStep(pull, c, step.lambda, step.d);
+  step.ratios = Eigen::VectorXd::Zero(state.ratios.size());
+  if (state.ratios.size() > 0) {
+    const RatioSteps byRatio = ratioSteps(step.lambda, state.ratios);
+    const Eigen::VectorXd range = lengths_->ranges();
+    step.ratios = minimumInBox(byRatio.model.gradient, byRatio.model.stiffness,
+                               -range - state.ratios, range - state.ratios);
+    step.d += byRatio.q * step.ratios;
+    step.lambda += byRatio.lambda * step.ratios;
+  }
+  step.slope = gradient_.dot(step.d) + kElasticPrice * areaScale_ * state.ratios.dot(step.ratios);
+  return step.d.allFinite();
+}
+
+// The matrix hardly changes any more: the new gradient with the old factor, and the old J that
+// belongs to it, give nearly the step that a new factor would.
+bool ConstrainedNewton::chordStep(const NewtonState& state, const Eigen::VectorXd& c,
+                                  double slopeBefore, Step& step) {
+  Eigen::VectorXd pull = gradient_;
+  lengths_->addTransposeTimes(state.lambda, pull);
+  lengths_->linearise(factoredAt_);
+  step.lambda = state.lambda;
+  solveStep(pull, c, step.lambda, step.d);
+  step.ratios = Eigen::VectorXd::Zero(state.ratios.size());
+  step.slope = pull.dot(step.d) + state.lambda.dot(c);
+  if (step.d.allFinite() && -step.slope < kChordGain * -slopeBefore) return true;
+  lengths_->linearise(state.q);
+  return false;
+}
+
 NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& limits,
                                       const Progress* progress) {
   double indefinite = 1;
   int shortSteps = 0;
   Eigen::VectorXd nu = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_->count()));
   Eigen::VectorXd c = lengths_->residual(state.q, state.ratios);
-  const auto elasticCount = static_cast<Eigen::Index>(lengths_->elasticCount());
-  Eigen::VectorXd range(elasticCount);
-  for (Eigen::Index k = 0; k < elasticCount; ++k) {
-    range[k] = lengths_->range(static_cast<std::size_t>(k));
-  }
+  const Eigen::VectorXd range = lengths_->ranges();
   const auto energyAt = [&](const Plane& q, const Eigen::VectorXd& ratios) {
     return energy(q) + 0.5 * kElasticPrice * areaScale_ * ratios.squaredNorm();
   };
   double e = energyAt(state.q, state.ratios);
+  double slopeBefore = 0;  // of the last step, if it was a whole one
   for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
-    lengths_->linearise(state.q);
-    const bool near = lengths_->worst(c) < kNearLengths;
-    bool factored = assembleAndFactor(state, near ? indefinite : 0);
-    lastStepWasConvex_ = factored && near && indefinite == 1;
-    if (!factored && near) {
-      indefinite *= 0.5;
-      factored = assembleAndFactor(state, indefinite);
-      if (!factored) {
-        indefinite *= 0.5;
-        factored = assembleAndFactor(state, 0);
-      }
-    }
-    if (!factored) return NewtonEnd::Stalled;
+    assemble(state, lengths_->worst(c) < kNearLengths ? indefinite : 0);
+    Step step;
+    const bool mayReuse = -slopeBefore > 0 && -slopeBefore < kChordSlope * e &&
+                          lengths_->worst(c) < limits.lengths && range.size() == 0;
+    const bool isReused = mayReuse && chordStep(state, c, slopeBefore, step);
+    if (!isReused && !newtonStep(state, c, indefinite, step)) return NewtonEnd::Stalled;
 
-    Plane d;
-    Eigen::VectorXd lambda = state.lambda;
-    solveStep(gradient_, c, lambda, d);
-    Eigen::VectorXd ratioStep = Eigen::VectorXd::Zero(elasticCount);
-    if (elasticCount > 0) {
-      const RatioSteps byRatio = ratioSteps(lambda, state.ratios);
-      ratioStep = minimumInBox(byRatio.model.gradient, byRatio.model.stiffness,
-                               -range - state.ratios, range - state.ratios);
-      d += byRatio.q * ratioStep;
-      lambda += byRatio.lambda * ratioStep;
-    }
-    if (!d.allFinite()) return NewtonEnd::Stalled;
-
-    const Eigen::VectorXd wanted = 1.3 * lambda.cwiseAbs();
+    const Eigen::VectorXd wanted = 1.3 * step.lambda.cwiseAbs();
     nu = wanted.cwiseMax(0.5 * (nu + wanted));
     const double merit = e + nu.dot(c.cwiseAbs());
-    const double slope = gradient_.dot(d) - nu.dot(c.cwiseAbs()) +
-                         kElasticPrice * areaScale_ * state.ratios.dot(ratioStep);
+    const double slope = step.slope - nu.dot(c.cwiseAbs());
 
     double border = std::numeric_limits<double>::infinity();
     for (const EnergyTerm* term : terms_) {
-      border = std::min(border, term->distanceToBorder(state.q, d));
+      border = std::min(border, term->distanceToBorder(state.q, step.d));
     }
     double alpha = std::min(1.0, kShareOfWayToFlip * border);
     // What the linearised lengths miss on the way is of second order in alpha.
     const Eigen::VectorXd missed =
-        (lengths_->residual(state.q + alpha * d, state.ratios + alpha * ratioStep) -
+        (lengths_->residual(state.q + alpha * step.d, state.ratios + alpha * step.ratios) -
          (1 - alpha) * c) /
         (alpha * alpha);
     const Plane s = leastCorrection(missed, 2);
@@ -217,9 +256,9 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
     double trialE = 0;
     bool accepted = false;
     for (int halving = 0; halving < kMaxHalvings; ++halving, alpha *= 0.5) {
-      trial = state.q + alpha * d + alpha * alpha * s;
+      trial = state.q + alpha * step.d + alpha * alpha * s;
       // A full step to the end of a range ends there, not a rounding beside it.
-      trialRatios = (state.ratios + alpha * ratioStep).cwiseMax(-range).cwiseMin(range);
+      trialRatios = (state.ratios + alpha * step.ratios).cwiseMax(-range).cwiseMin(range);
       trialE = energyAt(trial, trialRatios);
       if (!std::isfinite(trialE)) continue;
       trialC = lengths_->residual(trial, trialRatios);
@@ -228,17 +267,22 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
         break;
       }
     }
+    if (!accepted && isReused) {
+      slopeBefore = 0;
+      continue;
+    }
     if (!accepted) {
       // No way down that doubles can show: arrived if the lengths are right.
       return lengths_->worst(c) < limits.lengths ? NewtonEnd::Converged : NewtonEnd::Stalled;
     }
     state.q = trial;
     state.ratios = trialRatios;
-    state.lambda += alpha * (lambda - state.lambda);
+    state.lambda += alpha * (step.lambda - state.lambda);
     c = trialC;
     e = trialE;
     for (EnergyTerm* term : terms_) term->moveTo(state.q);
     indefinite = std::min(1.0, 1.5 * indefinite + 0.1);
+    slopeBefore = alpha == 1 ? slope : 0;
 
     const double error = lengths_->worst(c);
     if (error < limits.lengths && alpha > 0.5 &&
@@ -272,7 +316,6 @@ double ConstrainedNewton::project(NewtonState& state) {
       if (!slow) continue;
     }
     if (error < 1e-12 || (sinceFactor <= 1 && !(error < factoredAt))) break;
-    lengths_->linearise(state.q);
     if (!assembleAndFactor(state, 0)) break;
     factoredAt = error;
     sinceFactor = 0;
@@ -295,16 +338,16 @@ void ConstrainedNewton::projectRoughly(NewtonState& state) {
 }
 
 ElasticModel ConstrainedNewton::elasticModelAt(const NewtonState& state) {
-  lengths_->linearise(state.q);
   if (!assembleAndFactor(state, 1) && !assembleAndFactor(state, 0)) return {};
   Eigen::VectorXd lambda = state.lambda;
+  Eigen::VectorXd pull = gradient_;
+  lengths_->addTransposeTimes(lambda, pull);
   Plane d;
-  solveStep(gradient_, lengths_->residual(state.q, state.ratios), lambda, d);
+  solveStep(pull, lengths_->residual(state.q, state.ratios), lambda, d);
   return ratioSteps(lambda, state.ratios).model;
 }
 
 bool ConstrainedNewton::isStableAt(const NewtonState& state) {
-  lengths_->linearise(state.q);
   return assembleAndFactor(state, 1);
 }
 

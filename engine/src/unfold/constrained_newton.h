@@ -67,9 +67,13 @@ class ConstrainedNewton {
 
  private:
   [[nodiscard]] double energy(const Plane& q) const;
+  void assemble(const NewtonState& state, double indefinite);
+  /// Of the matrix last assembled, which was at this state.
+  [[nodiscard]] bool factor(const NewtonState& state);
   [[nodiscard]] bool assembleAndFactor(const NewtonState& state, double indefinite);
   void solveTied(const Eigen::VectorXd& right, Eigen::VectorXd& x);
-  void solveStep(const Eigen::VectorXd& gradient, const Eigen::VectorXd& residual,
+  /// @param pull the gradient, and J^T lambda.
+  void solveStep(const Eigen::VectorXd& pull, const Eigen::VectorXd& residual,
                  Eigen::VectorXd& lambda, Plane& d);
   /// How step and multipliers of solveStep() change with the ratios, in columns.
   struct RatioSteps {
@@ -77,6 +81,15 @@ class ConstrainedNewton {
     ElasticModel model;
   };
   [[nodiscard]] RatioSteps ratioSteps(const Eigen::VectorXd& lambda, const Eigen::VectorXd& ratios);
+  struct Step {
+    Plane d;
+    Eigen::VectorXd lambda, ratios;  ///< the new multipliers; the change of the ratios
+    double slope = 0;                ///< of the energy along it
+  };
+  [[nodiscard]] bool newtonStep(const NewtonState& state, const Eigen::VectorXd& c,
+                                double& indefinite, Step& step);
+  [[nodiscard]] bool chordStep(const NewtonState& state, const Eigen::VectorXd& c,
+                               double slopeBefore, Step& step);
   [[nodiscard]] Plane leastCorrection(const Eigen::VectorXd& residual, int solves);
 
   std::vector<EnergyTerm*> terms_;
@@ -87,6 +100,7 @@ class ConstrainedNewton {
   bool lastStepWasConvex_ = false;
   BlockMatrix matrix_;
   Eigen::VectorXd gradient_;
+  Plane factoredAt_;
 };
 
 }  // namespace toile::unfolding

@@ -59,7 +59,10 @@ BlockPattern couplingsOf(const Problem& problem, MirrorTies ties) {
 Result<Plane> unfoldedStart(const Problem& problem, const std::vector<Eigen::Vector3d>& positions,
                             std::pair<std::uint32_t, std::uint32_t> hold,
                             const BlockPattern& pattern, SparseFactor& factor) {
-  std::optional<Plane> start = conformalStart(problem, positions, hold, pattern, factor);
+  std::optional<Plane> start = boundaryFirstStart(problem, pattern, factor.elimination());
+  if (!start || flippedCount(problem, *start) > 0) {
+    start = conformalStart(problem, positions, hold, pattern, factor);
+  }
   if (!start || flippedCount(problem, *start) > 0) start = circleStart(problem);
   if (!start || flippedCount(problem, *start) > 0) {
     return Error{ErrorCode::NotConverged,

@@ -5,25 +5,26 @@
 
 #include "unfold/dense_cholesky.h"
 
-// Every node is two rows and columns. The front of a supernode is the dense matrix of its pivots
-// and the rows below them: the panel (the pivots' columns, kept: they become L) and the update
-// (what is left for the rows below, given to the parent).
+// Every node is kPerNode rows and columns. The front of a supernode is the dense matrix of its
+// pivots and the rows below them: the panel (the pivots' columns, kept: they become L) and the
+// update (what is left for the rows below, given to the parent).
 namespace toile::unfolding {
 namespace {
 
-constexpr std::size_t kPerNode = 2;
-
+template <std::size_t kPerNode>
 std::size_t pivotsOf(const Supernode& node) {
   return kPerNode * static_cast<std::size_t>(node.pivots());
 }
+template <std::size_t kPerNode>
 std::size_t belowOf(const Supernode& node) {
   return kPerNode * node.rows.size();
 }
 
 /// Adds the lower part of a child's update to the front of its parent.
+template <std::size_t kPerNode>
 void addUpdate(const Supernode& child, const double* update, std::size_t parentPivots,
                std::size_t parentRows, double* panel, double* front) {
-  const std::size_t size = belowOf(child);
+  const std::size_t size = belowOf<kPerNode>(child);
   const std::size_t below = parentRows - parentPivots;
   for (std::size_t c = 0; c < child.rowsInPanel.size(); ++c) {
     const std::size_t column = kPerNode * static_cast<std::size_t>(child.rowsInPanel[c]);
@@ -34,12 +35,10 @@ void addUpdate(const Supernode& child, const double* update, std::size_t parentP
       // update.
       double* out = own < parentPivots ? panel + own * parentRows
                                        : front + (own - parentPivots) * below - parentPivots;
-      if (side == 0) out[own] += in[kPerNode * c];
-      out[column + 1] += in[kPerNode * c + 1];
+      for (std::size_t r = side; r < kPerNode; ++r) out[column + r] += in[kPerNode * c + r];
       for (std::size_t r = c + 1; r < child.rowsInPanel.size(); ++r) {
         const std::size_t row = kPerNode * static_cast<std::size_t>(child.rowsInPanel[r]);
-        out[row] += in[kPerNode * r];
-        out[row + 1] += in[kPerNode * r + 1];
+        for (std::size_t k = 0; k < kPerNode; ++k) out[row + k] += in[kPerNode * r + k];
       }
     }
   }
@@ -47,14 +46,17 @@ void addUpdate(const Supernode& child, const double* update, std::size_t parentP
 
 }  // namespace
 
-SparseFactor::SparseFactor(const BlockPattern& pattern) : elimination_(pattern) {
-  const std::vector<Supernode>& nodes = elimination_.supernodes;
+template <std::size_t kPerNode>
+MultifrontalFactor<kPerNode>::MultifrontalFactor(const BlockPattern& pattern,
+                                                 std::shared_ptr<const Elimination> elimination)
+    : elimination_(std::move(elimination)) {
+  const std::vector<Supernode>& nodes = elimination_->supernodes;
   panelStart_.reserve(nodes.size() + 1);
   panelStart_.push_back(0);
   std::size_t deepest = 0, depth = 0, largest = 0;
   std::vector<std::size_t> waiting(nodes.size(), 0);  // numbers of the children's updates
   for (std::size_t s = 0; s < nodes.size(); ++s) {
-    const std::size_t pivots = pivotsOf(nodes[s]), below = belowOf(nodes[s]);
+    const std::size_t pivots = pivotsOf<kPerNode>(nodes[s]), below = belowOf<kPerNode>(nodes[s]);
     panelStart_.push_back(panelStart_.back() + pivots * (pivots + below));
     depth = depth - waiting[s] + below * below;
     deepest = std::max(deepest, depth + waiting[s]);
@@ -72,13 +74,19 @@ SparseFactor::SparseFactor(const BlockPattern& pattern) : elimination_(pattern) 
               static_cast<std::uint32_t>(s));
   }
   // visit(supernode, number k of the matrix, row and column in the supernode's panel), block by
-  // block: the rows below are searched once for the four numbers of a block.
+  // block: the rows below are searched once for all numbers of a block.
+  const auto columnOf = [&](std::size_t j, std::size_t side) {
+    const auto before = static_cast<std::size_t>(pattern.nodeStart()[j]);
+    const auto above = static_cast<std::size_t>(pattern.nodeStart()[j + 1]) - before;
+    return kPerNode * kPerNode * before + kPerNode * (kPerNode + 1) / 2 * j +
+           side * kPerNode * above + side * (side + 1) / 2;
+  };
   const auto forEachNumber = [&](const auto& visit) {
     for (std::size_t j = 0; j < pattern.nodeCount(); ++j) {
-      const int own = elimination_.placeOfNode[j];
+      const int own = elimination_->placeOfNode[j];
       const int begin = pattern.nodeStart()[j], end = pattern.nodeStart()[j + 1];
       for (int entry = begin; entry < end; ++entry) {
-        const int other = elimination_.placeOfNode[static_cast<std::size_t>(
+        const int other = elimination_->placeOfNode[static_cast<std::size_t>(
             pattern.nodeRow()[static_cast<std::size_t>(entry)])];
         const int first = std::min(own, other), later = std::max(own, other);
         const std::uint32_t s = supernodeOf[static_cast<std::size_t>(first)];
@@ -88,52 +96,57 @@ SparseFactor::SparseFactor(const BlockPattern& pattern) : elimination_(pattern) 
           row = kPerNode * static_cast<std::size_t>(later - node.first);
         } else {
           const auto found = std::lower_bound(node.rows.begin(), node.rows.end(), later);
-          row = pivotsOf(node) + kPerNode * static_cast<std::size_t>(found - node.rows.begin());
+          row = pivotsOf<kPerNode>(node) +
+                kPerNode * static_cast<std::size_t>(found - node.rows.begin());
         }
         const std::size_t column = kPerNode * static_cast<std::size_t>(first - node.first);
         for (std::size_t side = 0; side < kPerNode; ++side) {
-          const int k = pattern.columnStart()[kPerNode * j + side] + 2 * (entry - begin);
+          const std::size_t k =
+              columnOf(j, side) + kPerNode * static_cast<std::size_t>(entry - begin);
           for (std::size_t r = 0; r < kPerNode; ++r) {
             const bool isTurned = own > other;  // the matrix' column is a row of the factor
-            visit(s, k + static_cast<int>(r), row + (isTurned ? side : r),
-                  column + (isTurned ? r : side));
+            visit(s, k + r, row + (isTurned ? side : r), column + (isTurned ? r : side));
           }
         }
       }
       const std::uint32_t s = supernodeOf[static_cast<std::size_t>(own)];
       const std::size_t at = kPerNode * static_cast<std::size_t>(own - nodes[s].first);
-      const int last = pattern.columnStart()[kPerNode * j + 2];
-      visit(s, pattern.columnStart()[kPerNode * j + 1] - 1, at, at);
-      visit(s, last - 2, at + 1, at);
-      visit(s, last - 1, at + 1, at + 1);
+      for (std::size_t side = 0; side < kPerNode; ++side) {
+        const std::size_t columnEnd = columnOf(j, side + 1);
+        for (std::size_t r = 0; r <= side; ++r)
+          visit(s, columnEnd - 1 - side + r, at + side, at + r);
+      }
     }
   };
   moveStart_.assign(nodes.size() + 1, 0);
-  forEachNumber([&](std::uint32_t s, int, std::size_t, std::size_t) { ++moveStart_[s + 1]; });
+  forEachNumber(
+      [&](std::uint32_t s, std::size_t, std::size_t, std::size_t) { ++moveStart_[s + 1]; });
   for (std::size_t s = 0; s < nodes.size(); ++s) moveStart_[s + 1] += moveStart_[s];
-  moveFrom_.resize(pattern.row().size());
-  moveTo_.resize(pattern.row().size());
+  moveFrom_.resize(moveStart_.back());
+  moveTo_.resize(moveStart_.back());
   std::vector<std::size_t> fill(moveStart_.begin(), moveStart_.end() - 1);
-  forEachNumber([&](std::uint32_t s, int k, std::size_t row, std::size_t column) {
+  forEachNumber([&](std::uint32_t s, std::size_t k, std::size_t row, std::size_t column) {
     const std::size_t at = fill[s]++;
-    moveFrom_[at] = k;
-    moveTo_[at] =
-        static_cast<std::uint32_t>(column * (pivotsOf(nodes[s]) + belowOf(nodes[s])) + row);
+    moveFrom_[at] = static_cast<int>(k);
+    moveTo_[at] = static_cast<std::uint32_t>(
+        column * (pivotsOf<kPerNode>(nodes[s]) + belowOf<kPerNode>(nodes[s])) + row);
   });
   x_.resize(kPerNode * pattern.nodeCount());
 }
 
-bool SparseFactor::factor(const BlockMatrix& matrix) {
-  const std::vector<Supernode>& nodes = elimination_.supernodes;
+template <std::size_t kPerNode>
+bool MultifrontalFactor<kPerNode>::factor(const std::vector<double>& values) {
+  const std::vector<Supernode>& nodes = elimination_->supernodes;
   std::fill(panels_.begin(), panels_.end(), 0.0);
   waiting_.clear();
   double* top = stack_.data();
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     const Supernode& node = nodes[s];
-    const std::size_t pivots = pivotsOf(node), below = belowOf(node), rows = pivots + below;
+    const std::size_t pivots = pivotsOf<kPerNode>(node), below = belowOf<kPerNode>(node),
+                      rows = pivots + below;
     double* panel = panels_.data() + panelStart_[s];
     for (std::size_t m = moveStart_[s]; m < moveStart_[s + 1]; ++m) {
-      panel[moveTo_[m]] = matrix.values()[static_cast<std::size_t>(moveFrom_[m])];
+      panel[moveTo_[m]] = values[static_cast<std::size_t>(moveFrom_[m])];
     }
     double* front = front_.data();
     for (std::size_t c = 0; c < below; ++c) {  // the lower part is all that is used
@@ -141,8 +154,8 @@ bool SparseFactor::factor(const BlockMatrix& matrix) {
     }
     while (!waiting_.empty() && nodes[waiting_.back()].parent == static_cast<int>(s)) {
       const Supernode& child = nodes[waiting_.back()];
-      top -= belowOf(child) * belowOf(child);
-      addUpdate(child, top, pivots, rows, panel, front);
+      top -= belowOf<kPerNode>(child) * belowOf<kPerNode>(child);
+      addUpdate<kPerNode>(child, top, pivots, rows, panel, front);
       waiting_.pop_back();
     }
     if (!factorPanel(panel, rows, pivots, packed_)) return false;
@@ -157,19 +170,21 @@ bool SparseFactor::factor(const BlockMatrix& matrix) {
   return true;
 }
 
-void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
-  const std::vector<Supernode>& nodes = elimination_.supernodes;
-  const std::vector<int>& placeOfNode = elimination_.placeOfNode;
+template <std::size_t kPerNode>
+void MultifrontalFactor<kPerNode>::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
+  const std::vector<Supernode>& nodes = elimination_->supernodes;
+  const std::vector<int>& placeOfNode = elimination_->placeOfNode;
   for (std::size_t v = 0; v < placeOfNode.size(); ++v) {
     const std::size_t place = kPerNode * static_cast<std::size_t>(placeOfNode[v]);
-    x_[place] = b[static_cast<Eigen::Index>(2 * v)];
-    x_[place + 1] = b[static_cast<Eigen::Index>(2 * v + 1)];
+    for (std::size_t k = 0; k < kPerNode; ++k) {
+      x_[place + k] = b[static_cast<Eigen::Index>(kPerNode * v + k)];
+    }
   }
   // The rows below a supernode are gathered behind its pivots, so that the kernels see one vector.
   const auto gather = [&](const Supernode& node) {
     double* out = front_.data();
-    out = std::copy_n(x_.data() + kPerNode * static_cast<std::size_t>(node.first), pivotsOf(node),
-                      out);
+    out = std::copy_n(x_.data() + kPerNode * static_cast<std::size_t>(node.first),
+                      pivotsOf<kPerNode>(node), out);
     for (const int row : node.rows) {
       out = std::copy_n(x_.data() + kPerNode * static_cast<std::size_t>(row), kPerNode, out);
     }
@@ -177,8 +192,9 @@ void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     const Supernode& node = nodes[s];
     gather(node);
-    const std::size_t pivots = pivotsOf(node);
-    solveForward(panels_.data() + panelStart_[s], pivots + belowOf(node), pivots, front_.data());
+    const std::size_t pivots = pivotsOf<kPerNode>(node);
+    solveForward(panels_.data() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
+                 front_.data());
     const double* in = front_.data();
     std::copy_n(in, pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
     in += pivots;
@@ -190,16 +206,21 @@ void SparseFactor::solve(const Eigen::VectorXd& b, Eigen::VectorXd& x) {
   for (std::size_t s = nodes.size(); s-- > 0;) {
     const Supernode& node = nodes[s];
     gather(node);
-    const std::size_t pivots = pivotsOf(node);
-    solveBackward(panels_.data() + panelStart_[s], pivots + belowOf(node), pivots, front_.data());
+    const std::size_t pivots = pivotsOf<kPerNode>(node);
+    solveBackward(panels_.data() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
+                  front_.data());
     std::copy_n(front_.data(), pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
   }
   x.resize(b.size());
   for (std::size_t v = 0; v < placeOfNode.size(); ++v) {
     const std::size_t place = kPerNode * static_cast<std::size_t>(placeOfNode[v]);
-    x[static_cast<Eigen::Index>(2 * v)] = x_[place];
-    x[static_cast<Eigen::Index>(2 * v + 1)] = x_[place + 1];
+    for (std::size_t k = 0; k < kPerNode; ++k) {
+      x[static_cast<Eigen::Index>(kPerNode * v + k)] = x_[place + k];
+    }
   }
 }
+
+template class MultifrontalFactor<1>;
+template class MultifrontalFactor<2>;
 
 }  // namespace toile::unfolding

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "unfold/block_matrix.h"
@@ -12,13 +13,24 @@ namespace toile::unfolding {
 
 /// Multifrontal Cholesky factor L L^T of matrices on one pattern: ordered and analysed once,
 /// factored as often as wanted. One thread; the same bits in every run and on every processor.
+/// @tparam kPerNode rows and columns of a node: 2 for the plane, 1 for a function on its vertices.
 /// @see Liu, "The Multifrontal Method for Sparse Matrix Solution", SIAM Review 34(1), 1992.
-class SparseFactor {
+template <std::size_t kPerNode>
+class MultifrontalFactor {
  public:
-  explicit SparseFactor(const BlockPattern& pattern);
+  explicit MultifrontalFactor(const BlockPattern& pattern)
+      : MultifrontalFactor(pattern, std::make_shared<const Elimination>(pattern)) {}
+  /// @param elimination of the pattern, for factors that share it.
+  MultifrontalFactor(const BlockPattern& pattern, std::shared_ptr<const Elimination> elimination);
+
+  [[nodiscard]] const std::shared_ptr<const Elimination>& elimination() const {
+    return elimination_;
+  }
 
   /// False if the matrix is not positive definite; solve() may not be called then.
-  [[nodiscard]] bool factor(const BlockMatrix& matrix);
+  /// @param values the upper triangle in compressed columns, the diagonal last in each.
+  [[nodiscard]] bool factor(const std::vector<double>& values);
+  [[nodiscard]] bool factor(const BlockMatrix& matrix) { return factor(matrix.values()); }
   /// x = A^-1 b with the last matrix factored.
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
@@ -26,7 +38,7 @@ class SparseFactor {
   [[nodiscard]] std::size_t size() const { return panels_.size(); }
 
  private:
-  Elimination elimination_;
+  std::shared_ptr<const Elimination> elimination_;
   std::vector<std::size_t> panelStart_;  ///< of each supernode, column-major, in panels_
   /// The numbers of the matrix that a supernode takes, and where in its panel they go.
   std::vector<std::size_t> moveStart_;
@@ -37,5 +49,8 @@ class SparseFactor {
   std::vector<std::size_t> waiting_;  ///< whose they are
   std::vector<double> front_, packed_, x_;
 };
+
+using SparseFactor = MultifrontalFactor<2>;
+using ScalarFactor = MultifrontalFactor<1>;
 
 }  // namespace toile::unfolding

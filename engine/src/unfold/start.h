@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <utility>
 
@@ -22,6 +23,14 @@ namespace toile::unfolding {
                                                   std::pair<std::uint32_t, std::uint32_t> pins,
                                                   const BlockPattern& pattern,
                                                   SparseFactor& factor);
+
+/// Conformal map whose border has about its target lengths, from three solves with one number per
+/// vertex; it may flip triangles. Nothing with holes, or where the border cannot close.
+/// @param pattern without ties.
+/// @see Sawhney and Crane, "Boundary First Flattening", ACM TOG 37(1), 2017.
+[[nodiscard]] std::optional<Plane> boundaryFirstStart(
+    const Problem& problem, const BlockPattern& pattern,
+    const std::shared_ptr<const Elimination>& elimination);
 
 /// Convex combination map onto a circle, which flips nothing (holes are filled for it).
 /// @see Tutte, "How to Draw a Graph", 1963; Floater, "One-to-one Piecewise Linear Mappings over

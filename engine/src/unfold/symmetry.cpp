@@ -3,6 +3,7 @@
 
 #include <cmath>
 
+#include "unfold/least_strain.h"
 #include "unfold/start.h"
 
 namespace toile::unfolding {
@@ -69,8 +70,14 @@ Result<Plane> symmetricStart(const Problem& problem, const std::vector<Eigen::Ve
   const auto axis = [&](std::size_t i) {
     return static_cast<std::uint32_t>(symmetry.axis[i].index());
   };
+  // One number per vertex costs little; with the pairs tied it would have two.
+  const BlockPattern free = couplingsOf(problem);
   std::optional<Plane> start =
-      conformalStart(problem, positions, {axis(0), axis(1)}, pattern, factor);
+      boundaryFirstStart(problem, free, std::make_shared<const Elimination>(free));
+  if (start) makeSymmetric(symmetry, *start);
+  if (!start || flippedCount(problem, *start) > 0) {
+    start = conformalStart(problem, positions, {axis(0), axis(1)}, pattern, factor);
+  }
   if (!start || flippedCount(problem, *start) > 0) {
     start = circleStart(problem);
     if (start) makeSymmetric(symmetry, *start);

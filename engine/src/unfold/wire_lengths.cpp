@@ -23,6 +23,14 @@ Eigen::VectorXd WireLengths::residual(const Plane& q, const Eigen::VectorXd& rat
   return c;
 }
 
+Eigen::VectorXd WireLengths::ranges() const {
+  Eigen::VectorXd ranges(static_cast<Eigen::Index>(elasticCount()));
+  for (std::size_t k = 0; k < elasticCount(); ++k) {
+    ranges[static_cast<Eigen::Index>(k)] = problem_->elastics[k].range;
+  }
+  return ranges;
+}
+
 Eigen::VectorXd WireLengths::targetsOf(std::size_t elastic) const {
   Eigen::VectorXd targets = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(count()));
   Eigen::Index i = 0;

@@ -14,9 +14,8 @@ class WireLengths {
 
   [[nodiscard]] std::size_t count() const { return problem_->wireEdges.size(); }
   [[nodiscard]] std::size_t elasticCount() const { return problem_->elastics.size(); }
-  [[nodiscard]] double range(std::size_t elastic) const {
-    return problem_->elastics[elastic].range;
-  }
+  /// How far the ratios may go, either way.
+  [[nodiscard]] Eigen::VectorXd ranges() const;
   /// @param ratios one per elastic line.
   [[nodiscard]] Eigen::VectorXd residual(const Plane& q, const Eigen::VectorXd& ratios) const;
   /// The targets of an elastic line, 0 at all other edges: by how much c falls with its ratio.
