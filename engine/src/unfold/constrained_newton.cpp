@@ -21,6 +21,12 @@ constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
 constexpr double kStallStep = 1e-4;
 constexpr int kStallSteps = 3;
+/// What a step may leave of the linearised lengths, relative: always, and as a share of the decrease
+/// at which the run ends, since the correction behind it and the last projection take it away.
+constexpr double kExactResidual = 1e-9;
+constexpr double kStepResidual = 1e-2;
+/// Length errors nearer to rounding than this are not worth another solve.
+constexpr double kRounding = 1e-13;
 /// A factor serves once more when its last step promised less than this share of the energy, and
 /// as long as each step promises less than this share of the one before.
 constexpr double kChordSlope = 5e-2;
@@ -105,7 +111,7 @@ void ConstrainedNewton::solveStep(const Eigen::VectorXd& pull, const Eigen::Vect
     const Eigen::VectorXd r = lengths_->jacobianTimes(d) + residual;
     lambda += kPenalty * r;
     const double size = lengths_->worst(r);
-    if (size < 1e-9 || !(size < 0.9 * before)) break;
+    if (size < stepResidual_ || !(size < 0.9 * before)) break;
     before = size;
     right.setZero();
     lengths_->addTransposeTimes(-kPenalty * r, right);
@@ -224,6 +230,8 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
   };
   double e = energyAt(state.q, state.ratios);
   double slopeBefore = 0;  // of the last step, if it was a whole one
+  stepResidual_ = range.size() > 0 ? kExactResidual
+                                   : std::max(kExactResidual, kStepResidual * limits.decrease);
   for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     assemble(state, lengths_->worst(c) < kNearLengths ? indefinite : 0);
@@ -301,7 +309,7 @@ double ConstrainedNewton::project(NewtonState& state) {
   double error = lengths_->worstForUser(c);
   double factoredAt = error;
   int sinceFactor = 0;
-  for (int i = 0; i < kMaxProjections && error > 2e-14; ++i) {
+  for (int i = 0; i < kMaxProjections && error > kRounding; ++i) {
     // The factor and the J it was made with belong together: a new J alone diverges.
     const Plane s = leastCorrection(c, 1);
     const Plane trial = state.q + s;
@@ -339,6 +347,7 @@ void ConstrainedNewton::projectRoughly(NewtonState& state) {
 
 ElasticModel ConstrainedNewton::elasticModelAt(const NewtonState& state) {
   if (!assembleAndFactor(state, 1) && !assembleAndFactor(state, 0)) return {};
+  stepResidual_ = kExactResidual;
   Eigen::VectorXd lambda = state.lambda;
   Eigen::VectorXd pull = gradient_;
   lengths_->addTransposeTimes(lambda, pull);

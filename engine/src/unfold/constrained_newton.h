@@ -101,6 +101,7 @@ class ConstrainedNewton {
   BlockMatrix matrix_;
   Eigen::VectorXd gradient_;
   Plane factoredAt_;
+  double stepResidual_ = 1e-9;  ///< how exactly solveStep() solves
 };
 
 }  // namespace toile::unfolding

@@ -63,8 +63,7 @@ MultifrontalFactor<kPerNode>::MultifrontalFactor(const BlockPattern& pattern,
     largest = std::max({largest, below * below, pivots + below});
     if (nodes[s].parent >= 0) waiting[static_cast<std::size_t>(nodes[s].parent)] += below * below;
   }
-  panels_.resize(panelStart_.back());
-  stack_.resize(deepest);
+  stackSize_ = deepest;
   front_.resize(largest);
 
   // Where the numbers of the matrix go: into the panel of the node that is eliminated first.
@@ -137,14 +136,18 @@ MultifrontalFactor<kPerNode>::MultifrontalFactor(const BlockPattern& pattern,
 template <std::size_t kPerNode>
 bool MultifrontalFactor<kPerNode>::factor(const std::vector<double>& values) {
   const std::vector<Supernode>& nodes = elimination_->supernodes;
-  std::fill(panels_.begin(), panels_.end(), 0.0);
+  if (!panels_) {
+    panels_.reset(new double[size()]);
+    stack_.reset(new double[stackSize_]);
+  }
   waiting_.clear();
-  double* top = stack_.data();
+  double* top = stack_.get();
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     const Supernode& node = nodes[s];
     const std::size_t pivots = pivotsOf<kPerNode>(node), below = belowOf<kPerNode>(node),
                       rows = pivots + below;
-    double* panel = panels_.data() + panelStart_[s];
+    double* panel = panels_.get() + panelStart_[s];
+    std::fill_n(panel, pivots * rows, 0.0);
     for (std::size_t m = moveStart_[s]; m < moveStart_[s + 1]; ++m) {
       panel[moveTo_[m]] = values[static_cast<std::size_t>(moveFrom_[m])];
     }
@@ -193,7 +196,7 @@ void MultifrontalFactor<kPerNode>::solve(const Eigen::VectorXd& b, Eigen::Vector
     const Supernode& node = nodes[s];
     gather(node);
     const std::size_t pivots = pivotsOf<kPerNode>(node);
-    solveForward(panels_.data() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
+    solveForward(panels_.get() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
                  front_.data());
     const double* in = front_.data();
     std::copy_n(in, pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
@@ -207,7 +210,7 @@ void MultifrontalFactor<kPerNode>::solve(const Eigen::VectorXd& b, Eigen::Vector
     const Supernode& node = nodes[s];
     gather(node);
     const std::size_t pivots = pivotsOf<kPerNode>(node);
-    solveBackward(panels_.data() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
+    solveBackward(panels_.get() + panelStart_[s], pivots + belowOf<kPerNode>(node), pivots,
                   front_.data());
     std::copy_n(front_.data(), pivots, x_.data() + kPerNode * static_cast<std::size_t>(node.first));
   }

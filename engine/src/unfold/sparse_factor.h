@@ -35,7 +35,7 @@ class MultifrontalFactor {
   void solve(const Eigen::VectorXd& b, Eigen::VectorXd& x);
 
   /// Numbers that the factor holds.
-  [[nodiscard]] std::size_t size() const { return panels_.size(); }
+  [[nodiscard]] std::size_t size() const { return panelStart_.back(); }
 
  private:
   std::shared_ptr<const Elimination> elimination_;
@@ -44,8 +44,10 @@ class MultifrontalFactor {
   std::vector<std::size_t> moveStart_;
   std::vector<int> moveFrom_;
   std::vector<std::uint32_t> moveTo_;
-  std::vector<double> panels_;
-  std::vector<double> stack_;         ///< updates that wait for their parents
+  // Large, so made by the first factor() and left as they are until written.
+  std::unique_ptr<double[]> panels_;
+  std::unique_ptr<double[]> stack_;  ///< updates that wait for their parents
+  std::size_t stackSize_ = 0;
   std::vector<std::size_t> waiting_;  ///< whose they are
   std::vector<double> front_, packed_, x_;
 };

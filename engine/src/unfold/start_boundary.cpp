@@ -100,8 +100,11 @@ std::optional<Plane> boundaryFirstStart(const Problem& problem, const BlockPatte
   Eigen::VectorXd angles = Eigen::VectorXd::Zero(size);
   for (const RestTriangle& t : problem.triangles) {
     const std::array<double, 3> weight = halfCotangents(t);
+    const double first = std::atan2(0.5, weight[0]), second = std::atan2(0.5, weight[1]);
+    angles[t.vertex[0]] += first;
+    angles[t.vertex[1]] += second;
+    angles[t.vertex[2]] += std::numbers::pi - first - second;
     for (std::size_t k = 0; k < 3; ++k) {
-      angles[t.vertex[k]] += std::atan2(0.5, weight[k]);
       const std::uint32_t i = t.vertex[(k + 1) % 3], j = t.vertex[(k + 2) % 3];
       if (onBorder[i] == 0) matrix.diagonal(i) += weight[k];
       if (onBorder[j] == 0) matrix.diagonal(j) += weight[k];
