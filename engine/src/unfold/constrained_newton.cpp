@@ -21,8 +21,11 @@ constexpr double kArmijo = 1e-4;
 constexpr double kShareOfWayToFlip = 0.8;
 constexpr double kStallStep = 1e-4;
 constexpr int kStallSteps = 3;
-/// What a step may leave of the linearised lengths, relative: always, and as a share of the decrease
-/// at which the run ends, since the correction behind it and the last projection take it away.
+/// What shall be changed near the minimum is changed when a step promises less than this share.
+constexpr double kAdjustSlope = 5e-2;
+/// What a step may leave of the linearised lengths, relative: always, and as a share of the
+/// decrease at which the run ends, since the correction behind it and the last projection take it
+/// away.
 constexpr double kExactResidual = 1e-9;
 constexpr double kStepResidual = 1e-2;
 /// Length errors nearer to rounding than this are not worth another solve.
@@ -230,8 +233,8 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
   };
   double e = energyAt(state.q, state.ratios);
   double slopeBefore = 0;  // of the last step, if it was a whole one
-  stepResidual_ = range.size() > 0 ? kExactResidual
-                                   : std::max(kExactResidual, kStepResidual * limits.decrease);
+  stepResidual_ =
+      range.size() > 0 ? kExactResidual : std::max(kExactResidual, kStepResidual * limits.decrease);
   for (; state.steps < limits.maxSteps; ++state.steps) {
     if (isCancelled(progress)) return NewtonEnd::Cancelled;
     assemble(state, lengths_->worst(c) < kNearLengths ? indefinite : 0);
@@ -293,6 +296,12 @@ NewtonEnd ConstrainedNewton::minimise(NewtonState& state, const NewtonLimits& li
     slopeBefore = alpha == 1 ? slope : 0;
 
     const double error = lengths_->worst(c);
+    if (limits.adjust && error < kNearLengths && -slope < kAdjustSlope * e &&
+        limits.adjust(state)) {
+      e = energyAt(state.q, state.ratios);
+      slopeBefore = 0;
+      continue;
+    }
     if (error < limits.lengths && alpha > 0.5 &&
         -slope < limits.decrease * e + 1e-18 * areaScale_) {
       ++state.steps;

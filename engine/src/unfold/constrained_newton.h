@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <functional>
 #include <utility>
 
 #include "toile/core/progress.h"
@@ -23,6 +24,8 @@ struct NewtonLimits {
   int maxSteps = 100;      ///< in all, over calls with one state
   double lengths = 1e-4;   ///< greatest length error, relative
   double decrease = 1e-4;  ///< of the merit function that the next step promises, relative
+  /// Called after a step near the minimum; may change the terms, and says whether it did.
+  std::function<bool(const NewtonState&)> adjust = {};
 };
 
 /// What other ratios of the elastic lines would change, to second order.

@@ -10,6 +10,7 @@
 #include "unfold/check.h"
 #include "unfold/over_bracing.h"
 #include "unfold/solution.h"
+#include "unfold/wire_stiffness.h"
 
 namespace toile::unfolding {
 namespace {
@@ -167,14 +168,23 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
     }
     findings.push_back(std::move(finding));
   }
-  if (solution.wireStiffness > options.wireStiffness) {
-    findings.push_back({"wires-stiffened",
-                        fmt::format("wires would have waved; their stiffness was raised from "
-                                    "{:.3g} to {:.3g}",
-                                    options.wireStiffness, solution.wireStiffness),
-                        {}});
+  if (!solution.stiffened.empty()) {
+    Finding finding{"wires-stiffened",
+                    fmt::format("wires would have waved; their stiffness was raised from {:.3g} to "
+                                "{:.3g} at most",
+                                options.wireStiffness, solution.wireStiffness),
+                    {}};
+    for (const std::uint32_t wire : solution.stiffened) {
+      Element element =
+          Element::curve(wire == WireEdge::kNoWire ? "border" : piece.wires[wire].curve);
+      if (finding.where.size() < kMaxNamed &&
+          std::find(finding.where.begin(), finding.where.end(), element) == finding.where.end()) {
+        finding.where.push_back(std::move(element));
+      }
+    }
+    findings.push_back(std::move(finding));
   }
-  if (!solution.stable || solution.buckling > kBucklingLimit) {
+  if (!solution.stable || solution.buckling > WireStiffness::kBucklingLimit) {
     findings.push_back({"wires-may-wave",
                         "some wires are too long for the cloth they enclose and stand under high "
                         "compression; a dart or an elastic line would relieve them",

@@ -11,9 +11,9 @@
 namespace toile::unfolding {
 namespace {
 
-constexpr int kMaxStiffenings = 6;
-/// Waves longer than this share of the piece's size are its shape, not crinkles.
-constexpr double kMaxRaisedStiffness = 0.2;
+constexpr int kMaxStiffenings = 12;
+/// How much stiffer a wire is made at once: forces on the way may be higher than at the end.
+constexpr double kMaxStiffening = 2;
 /// How often the stiffness is doubled to part wires that cross; most crossings are the surface's
 /// own overlap, which no stiffness cures.
 constexpr int kMaxPartings = 2;
@@ -21,26 +21,7 @@ constexpr int kMaxPartings = 2;
 constexpr double kNearEnoughToProject = 1e-3;
 constexpr double kExact = 1e-9;
 /// One step brings lengths to a thousandth and the strain to where the eye sees no difference.
-constexpr NewtonLimits kPreview{.maxSteps = 1};
-
-/// The compression at which a bar of the wires' stiffness waves in the cloth beside it
-/// (docs/unfolding.md).
-double bucklingLoad(const UnfoldOptions& options, double waveLength) {
-  const double kappa = options.areaWeight;
-  double h = 2 * (kappa + 1) / (kappa + 2);
-  if (options.cloth) h *= std::sqrt(options.cloth->weights.along * options.cloth->weights.across);
-  return 6 * std::cbrt(h * h) * waveLength;
-}
-
-/// An inner wire has cloth and stiffness on both sides and bears twice as much.
-double highestCompression(const Problem& problem, const Eigen::VectorXd& lambda) {
-  double highest = 0;
-  for (std::size_t i = 0; i < problem.wireEdges.size(); ++i) {
-    const double compression = -lambda[static_cast<Eigen::Index>(i)];
-    highest = std::max(highest, problem.wireEdges[i].inner ? compression / 2 : compression);
-  }
-  return highest;
-}
+constexpr int kPreviewSteps = 1;
 
 }  // namespace
 
@@ -82,7 +63,8 @@ LeastStrain::LeastStrain(const Problem& problem, const UnfoldOptions& options,
           problem, symmetry != nullptr ? tiesOf(*symmetry, problem.vertexCount) : MirrorTies{})),
       factor_(pattern_),
       strain_(makeStrain(problem, pattern_, options)),
-      lengths_(problem, pattern_) {}
+      lengths_(problem, pattern_),
+      stiffness_(problem, options) {}
 
 Result<void> LeastStrain::start(const Piece& piece) {
   const std::vector<Eigen::Vector3d>& positions = piece.mesh->positions();
@@ -99,27 +81,28 @@ Result<void> LeastStrain::start(const Piece& piece) {
   solution_.state.lambda = Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.count()));
   solution_.state.ratios =
       Eigen::VectorXd::Zero(static_cast<Eigen::Index>(lengths_.elasticCount()));
-  solution_.wireStiffness = options_.wireStiffness;
+  stiffness_.reset();
+  bending_->setStiffness(stiffness_.ofCorners());
   return {};
-}
-
-double LeastStrain::stiffen() {
-  const double waveLength = solution_.wireStiffness * std::sqrt(problem_->area);
-  bending_->setStiffness(waveLength * waveLength * waveLength);
-  return bucklingLoad(options_, waveLength);
 }
 
 /// Finds the plane; raises the stiffness of the wires while they would wave or cross.
 Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
   if (Result<void> started = start(piece); !started) return started.error();
   Solution& solution = solution_;
-  const double highest = std::max(kMaxRaisedStiffness, options_.wireStiffness);
   std::optional<Solution> crossed;  // the first one, to come back to when parting does not help
-  int partings = 0;
-  for (int round = 0;; ++round) {
-    const double load = stiffen();
-    const NewtonEnd end =
-        newton_->minimise(solution.state, {.maxSteps = options_.maxSteps}, progress);
+  int partings = 0, stiffenings = 0;
+  const auto stiffen = [&](const NewtonState& state) {
+    if (stiffenings == kMaxStiffenings || !stiffness_.raise(state.lambda, kMaxStiffening)) {
+      return false;
+    }
+    ++stiffenings;
+    bending_->setStiffness(stiffness_.ofCorners());
+    return true;
+  };
+  for (;;) {
+    const NewtonEnd end = newton_->minimise(
+        solution.state, {.maxSteps = options_.maxSteps, .adjust = stiffen}, progress);
     if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
     solution.finished = end == NewtonEnd::Converged;
     solution.stable = solution.finished && newton_->lastStepWasConvex();
@@ -135,17 +118,14 @@ Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
       bending_->moveTo(solution.state.q);
       break;
     }
-    solution.buckling = load > 0 ? highestCompression(*problem_, solution.state.lambda) / load : 0;
-    if (round == kMaxStiffenings || !solution.finished || solution.wireStiffness == 0) break;
-    if (!solution.crossings.empty()) {
-      if (!crossed) crossed = solution;
-      ++partings;
-      solution.wireStiffness *= 2;
-    } else if (!crossed && solution.buckling > kBucklingLimit && solution.wireStiffness < highest) {
-      solution.wireStiffness = std::min(highest, solution.wireStiffness * solution.buckling);
-    } else {
-      break;
-    }
+    solution.buckling = stiffness_.buckling(solution.state.lambda);
+    solution.wireStiffness = stiffness_.greatest();
+    solution.stiffened = stiffness_.raised();
+    if (solution.crossings.empty() || !solution.finished || solution.wireStiffness == 0) break;
+    if (!crossed) crossed = solution;
+    ++partings;
+    stiffness_.doubleAll();
+    bending_->setStiffness(stiffness_.ofCorners());
   }
   solution.meanEnergy = strain_->energy(solution.state.q) / problem_->area;
   if (!solution.stable) solution.stable = newton_->isStableAt(solution.state);
@@ -158,15 +138,13 @@ Result<Solution> LeastStrain::preview(const Piece& piece, Progress* progress) {
     if (Result<void> started = start(piece); !started) return started.error();
   }
   solution_.state.steps = 0;
-  const double load = stiffen();
-  const NewtonEnd end = newton_->minimise(solution_.state, kPreview, progress);
+  const NewtonEnd end = newton_->minimise(solution_.state, {.maxSteps = kPreviewSteps}, progress);
   if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
   newton_->projectRoughly(solution_.state);
-  const double buckling = highestCompression(*problem_, solution_.state.lambda) / load;
-  if (load > 0 && buckling > kBucklingLimit) {
-    solution_.wireStiffness =
-        std::min(kMaxRaisedStiffness, solution_.wireStiffness * std::min(2.0, buckling));
+  if (stiffness_.raise(solution_.state.lambda, kMaxStiffening)) {
+    bending_->setStiffness(stiffness_.ofCorners());
   }
+  solution_.wireStiffness = stiffness_.greatest();
   return solution_;
 }
 

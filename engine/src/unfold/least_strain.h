@@ -8,6 +8,7 @@
 #include "unfold/sparse_factor.h"
 #include "unfold/triangle_energy.h"
 #include "unfold/wire_bending.h"
+#include "unfold/wire_stiffness.h"
 
 namespace toile::unfolding {
 
@@ -38,10 +39,6 @@ class LeastStrain {
 
  private:
   [[nodiscard]] Result<void> start(const Piece& piece);
-  /// Gives the wires the stiffness of the solution.
-  /// @return the compression at which they buckle.
-  double stiffen();
-
   const Problem* problem_;
   UnfoldOptions options_;
   const PieceSymmetry* symmetry_;
@@ -50,6 +47,7 @@ class LeastStrain {
   std::unique_ptr<TriangleEnergy> strain_;
   WireLengths lengths_;
   std::optional<WireBending> bending_;
+  WireStiffness stiffness_;
   std::optional<ConstrainedNewton> newton_;
   Solution solution_;
 };

@@ -9,15 +9,12 @@
 
 namespace toile::unfolding {
 
-/// Wires wave when their compression passes this share of the buckling load (measured: smooth up to
-/// 1.06 at the least favourable piece).
-inline constexpr double kBucklingLimit = 1.05;
-
 /// What a solver found, and what is worth telling of it.
 struct Solution {
   NewtonState state;
-  double wireStiffness = 0;
-  double buckling = 0;  ///< highest compression as a share of the buckling load
+  double wireStiffness = 0;              ///< of the stiffest
+  std::vector<std::uint32_t> stiffened;  ///< wires with more than the options'; kNoWire = border
+  double buckling = 0;                   ///< highest compression as a share of the buckling load
   bool finished = true;
   bool stable = true;
   double wireBending = 0;  ///< J

@@ -44,7 +44,7 @@ std::vector<double> cornerAngles(const Problem& problem, const Plane& q) {
 
 WireBending::WireBending(const Problem& problem, const BlockPattern& pattern,
                          std::vector<double> theta)
-    : problem_(&problem), theta_(std::move(theta)) {
+    : problem_(&problem), theta_(std::move(theta)), stiffness_(theta_.size(), 0) {
   places_.reserve(problem.corners.size());
   for (const Corner& c : problem.corners) {
     places_.push_back({pattern.find(c.at, c.before), pattern.find(c.at, c.after),
@@ -64,18 +64,18 @@ double WireBending::energy(const Plane& q) const {
   double sum = 0;
   for (std::size_t i = 0; i < theta_.size(); ++i) {
     const double change = angle(i, q) - problem_->corners[i].alpha;
-    sum += change * change / problem_->corners[i].span;
+    sum += stiffness_[i] * change * change / problem_->corners[i].span;
   }
-  return stiffness_ * sum;
+  return sum;
 }
 
 void WireBending::addDerivatives(const Plane& q, double indefinite, Eigen::VectorXd& gradient,
                                  BlockMatrix& hessian) const {
-  if (stiffness_ == 0) return;
   const double second = secondDerivatives_ ? indefinite : 0;
   for (std::size_t i = 0; i < theta_.size(); ++i) {
+    if (stiffness_[i] == 0) continue;
     const Corner& c = problem_->corners[i];
-    const double weight = 2 * stiffness_ / c.span;
+    const double weight = 2 * stiffness_[i] / c.span;
     const Vector2 u = at(q, c.before) - at(q, c.at);
     const Vector2 w = at(q, c.after) - at(q, c.at);
     const Vector2 before = Vector2(u.y(), -u.x()) / u.squaredNorm();

@@ -7,7 +7,7 @@
 
 namespace toile::unfolding {
 
-/// Bending energy of the wires in the plane: stiffness * sum (theta - alpha)^2 / span.
+/// Bending energy of the wires in the plane: sum stiffness (theta - alpha)^2 / span.
 ///
 /// theta is followed by continuity, so that it may leave (0, 2 pi).
 class WireBending : public EnergyTerm {
@@ -16,7 +16,9 @@ class WireBending : public EnergyTerm {
   WireBending(const Problem& problem, const BlockPattern& pattern, std::vector<double> theta);
 
   /// mm^3; (beta sqrt(area))^3 for wires that cannot wave below the length beta sqrt(area).
-  void setStiffness(double stiffness) { stiffness_ = stiffness; }
+  void setStiffness(double stiffness) { stiffness_.assign(theta_.size(), stiffness); }
+  /// One for each corner.
+  void setStiffness(std::vector<double> stiffness) { stiffness_ = std::move(stiffness); }
   /// Counts the second derivatives of theta too: they bring nothing where the cloth's strain rules,
   /// and all where wires alone are bent.
   void useSecondDerivatives() { secondDerivatives_ = true; }
@@ -31,9 +33,8 @@ class WireBending : public EnergyTerm {
   [[nodiscard]] double angle(std::size_t corner, const Plane& q) const;
 
   const Problem* problem_;
-  double stiffness_ = 0;
   bool secondDerivatives_ = false;
-  std::vector<double> theta_;
+  std::vector<double> theta_, stiffness_;
   /// Of the pairs at-before, at-after, before-after.
   std::vector<std::array<BlockPattern::Place, 3>> places_;
 };
