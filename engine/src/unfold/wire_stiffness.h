@@ -49,8 +49,8 @@ class WireStiffness {
   [[nodiscard]] std::vector<double> compressions(const Eigen::VectorXd& lambda) const;
 
   const Problem* problem_;
-  double least_, highest_;   ///< beta
-  double modulus_;           ///< of the cloth beside a wire
+  double least_, highest_;    ///< beta
+  double modulus_;            ///< of the cloth beside a wire
   std::vector<double> beta_;  ///< per wire; the unnamed border is the last
   std::vector<std::uint32_t> wireOfEdge_;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> wiresOfCorner_;

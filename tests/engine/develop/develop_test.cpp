@@ -98,7 +98,7 @@ TEST(Develop, ATorusPatchLiesFlatAndTellsThePrice) {
   const DevelopReport& report = developed->report;
   expectBorderUnmoved(piece, developed->piece);
   EXPECT_TRUE(developed->flat->check.passes());
-  EXPECT_GT(report.errorBefore, 0.05);
+  EXPECT_GT(report.errorBefore, 0.03);
   EXPECT_LT(report.errorAgainstProcessed, 0.25 * report.errorBefore);
   EXPECT_GT(report.errorAgainstOriginal, report.errorBefore);
   EXPECT_LT(report.totalDefect, report.totalDefectBefore);
