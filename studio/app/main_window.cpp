@@ -12,7 +12,6 @@
 #include <QPushButton>
 #include <QSettings>
 #include <QSplitter>
-#include <QStandardPaths>
 #include <QTabWidget>
 
 #include "app/pane_corners.h"
@@ -30,11 +29,6 @@ namespace {
 
 constexpr const char* kBody = "builtin:body@1";
 constexpr int kBackupEvery = 5000;  // ms; at most 10 s of work may be lost
-
-std::filesystem::path recoveryFolder() {
-  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
-  return std::filesystem::path(data.toStdString()) / "recovery";
-}
 
 QString fromPath(const std::filesystem::path& path) {
   return QString::fromStdString(path.string());
@@ -145,8 +139,12 @@ bool MainWindow::offerLeftWork() {
 
 void MainWindow::keepBackup() {
   if (!session_.hasWork()) return;
-  if (!session_.isUnsaved()) return recovery_.forget();
-  const auto kept = recovery_.keep(session_.document(), session_.origin(), session_.path());
+  // A point that is held for long: as far as it is dragged. Lines that are being drawn are kept
+  // when they are whole.
+  const bool isDrag = session_.tool().id() == ToolId::Select && session_.isPreview();
+  if (!session_.isUnsaved() && !isDrag) return recovery_.forget();
+  const auto kept = recovery_.keep(isDrag ? session_.shown() : session_.document(),
+                                   session_.origin(), session_.path());
   if (!kept) showMessage(tr("No backup: %1").arg(QString::fromStdString(kept.error().message)));
 }
 

@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <QDir>
 #include <QFileInfo>
+#include <QStandardPaths>
 
 #include "document/design_store.h"
 #include "toile/core/file.h"
@@ -22,6 +23,11 @@ QString text(const std::filesystem::path& path) {
 }
 
 }  // namespace
+
+std::filesystem::path recoveryFolder() {
+  const QString data = QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation);
+  return std::filesystem::path(data.toStdString()) / "recovery";
+}
 
 Recovery::Recovery(const std::filesystem::path& folder) : folder_(folder) {
   if (!makeFolder(folder)) return;

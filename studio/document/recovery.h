@@ -19,6 +19,9 @@ struct LeftWork {
   QDateTime written;
 };
 
+/// Where the copies of all programs of this user are.
+[[nodiscard]] std::filesystem::path recoveryFolder();
+
 /// Keeps a copy of the work in a folder of its own, for after a crash or a power cut. Each running
 /// program has a file there, and a lock that tells the living from the dead.
 class Recovery {

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+// A hand on the window, by mouse and key events, for the scripted uses.
+#pragma once
+
+#include <QApplication>
+#include <QLineEdit>
+#include <QMouseEvent>
+#include <QTimer>
+#include <cstdio>
+#include <cstdlib>
+#include <string>
+#include <vector>
+
+#include "app/main_window.h"
+#include "viewport/viewport.h"
+
+namespace toile::studio::use {
+
+using Eigen::Vector2d;
+using Eigen::Vector3d;
+
+inline void require(bool holds, const char* what) {
+  std::printf("%s: %s\n", holds ? "ok" : "FAILED", what);
+  std::fflush(stdout);
+  if (!holds) std::exit(1);
+}
+
+inline void wait(int ms) {
+  QEventLoop loop;
+  QTimer::singleShot(ms, &loop, &QEventLoop::quit);
+  loop.exec();
+}
+
+class Hand {
+ public:
+  explicit Hand(MainWindow& window) : window_(window), view_(window.viewport()) {}
+
+  Session& session() { return window_.session(); }
+
+  void send(QEvent::Type type, const Vector2d& at, Qt::MouseButton button, bool held) {
+    const QPointF place(at.x(), at.y());
+    QMouseEvent event(type, place, view_.mapToGlobal(place), button,
+                      held ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(&view_, &event);
+    QApplication::processEvents();
+  }
+  Vector2d pixel(const Vector3d& place) {
+    const Screen screen{view_.camera().view(), double(view_.width()), double(view_.height())};
+    return screen.toPixel(place).value();
+  }
+  void click(const Vector2d& at) {
+    send(QEvent::MouseMove, at, Qt::NoButton, false);
+    send(QEvent::MouseButtonPress, at, Qt::LeftButton, true);
+    send(QEvent::MouseButtonRelease, at, Qt::LeftButton, false);
+  }
+  void click(const Vector3d& place) { click(pixel(place)); }
+  void drag(const std::vector<Vector2d>& way) {
+    send(QEvent::MouseMove, way.front(), Qt::NoButton, false);
+    send(QEvent::MouseButtonPress, way.front(), Qt::LeftButton, true);
+    for (std::size_t i = 1; i < way.size(); ++i) {
+      for (int step = 1; step <= 8; ++step) {
+        const double t = step / 8.0;
+        send(QEvent::MouseMove, (1 - t) * way[i - 1] + t * way[i], Qt::NoButton, true);
+      }
+    }
+    send(QEvent::MouseButtonRelease, way.back(), Qt::LeftButton, false);
+  }
+  void key(int code) {
+    for (const auto type : {QEvent::KeyPress, QEvent::KeyRelease}) {
+      QKeyEvent event(type, code, Qt::NoModifier);
+      QApplication::sendEvent(&view_, &event);
+    }
+    QApplication::processEvents();
+  }
+  void command(const char* id) {
+    window_.actions()[QString::fromLatin1(id)]->trigger();
+    QApplication::processEvents();
+  }
+  void settle() {
+    for (int i = 0; i < 600; ++i) {
+      wait(50);
+      if (session().isPatternCurrent() && !session().worker().isWorking()) return;
+    }
+    require(false, "the pattern comes within 30 s");
+  }
+  void picture(const std::string& name) {
+    if (folder.empty()) return;
+    wait(400);
+    window_.grab().save(QString::fromStdString(folder + "/" + name + ".png"));
+  }
+  void namePiece(const QString& name) {
+    auto* field = window_.findChild<QLineEdit*>(QStringLiteral("pieceName"));
+    require(field != nullptr, "a selected piece shows its name");
+    field->setFocus();
+    field->selectAll();
+    for (const QChar letter : name) {
+      QKeyEvent event(QEvent::KeyPress, 0, Qt::NoModifier, QString(letter));
+      QApplication::sendEvent(field, &event);
+    }
+    QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
+    QApplication::sendEvent(field, &enter);
+    QApplication::processEvents();
+  }
+  std::string folder;
+
+ private:
+  MainWindow& window_;
+  Viewport& view_;
+};
+
+}  // namespace toile::studio::use
