@@ -32,9 +32,10 @@ int main(int argc, char** argv) {
       "main", "Draw styling lines on a body and watch the pattern change as you draw."));
   parser.addHelpOption();
   parser.addVersionOption();
-  parser.addPositionalArgument(QStringLiteral("FILE"),
-                               QApplication::translate("main", "A design (.toile) to open."),
-                               QStringLiteral("[FILE]"));
+  parser.addPositionalArgument(
+      QStringLiteral("FILE"),
+      QApplication::translate("main", "A design (.toile) or a model to open."),
+      QStringLiteral("[FILE]"));
   const QCommandLineOption traceOption(
       QStringLiteral("trace"),
       QApplication::translate("main", "Write how long the hand waited to a file."),
@@ -56,12 +57,13 @@ int main(int argc, char** argv) {
       return 2;
     }
   }
+  window.showStart();
   window.show();
   const QStringList files = parser.positionalArguments();
   // After the window is there, so that it is never waited for.
   QTimer::singleShot(0, &window, [&window, files] {
     if (files.isEmpty() && window.offerLeftWork()) return;
-    if (files.isEmpty() || !window.open(files.front().toStdString())) window.newWork();
+    if (!files.isEmpty()) window.open(files.front().toStdString());
   });
   return QApplication::exec();
 }

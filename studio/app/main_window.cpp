@@ -10,12 +10,15 @@
 #include <QMessageBox>
 #include <QMimeData>
 #include <QPushButton>
+#include <QScreen>
 #include <QSettings>
 #include <QSplitter>
+#include <QStackedWidget>
 #include <QTabWidget>
 
 #include "app/pane_corners.h"
-#include "document/design_store.h"
+#include "export/export_dialog.h"
+#include "jobs/long_work.h"
 #include "panels/lists.h"
 #include "panels/selection_panel.h"
 #include "pattern/pattern_view.h"
@@ -23,11 +26,15 @@
 #include "tools/drawing.h"
 #include "viewport/viewport.h"
 
+// Outside of any namespace, as Qt wants it.
+static void initResources() {
+  Q_INIT_RESOURCE(studio);
+}
+
 namespace toile::studio {
 
 namespace {
 
-constexpr const char* kBody = "builtin:body@1";
 constexpr int kBackupEvery = 5000;  // ms; at most 10 s of work may be lost
 
 QString fromPath(const std::filesystem::path& path) {
@@ -39,7 +46,8 @@ QString fromPath(const std::filesystem::path& path) {
 MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), recovery_(recoveryFolder()) {
   setObjectName(QStringLiteral("mainWindow"));
   setAcceptDrops(true);
-  resize(1600, 1000);
+  initResources();
+  resize(QSize(1600, 1000).boundedTo(screen()->availableSize()));
   viewport_ = new Viewport(session_);
   pattern_ = new PatternView(session_);
   panes_ = new QSplitter;
@@ -48,10 +56,15 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), recovery_(recover
   panes_->addWidget(viewport_);
   panes_->addWidget(pattern_);
   panes_->setSizes({510, 490});
-  setCentralWidget(panes_);
+  stack_ = new QStackedWidget;
+  stack_->addWidget(panes_);
+  setCentralWidget(stack_);
   makeActions();
   makeToolActions();
+  makeStartPage();
   makeMenus();
+  makeBodyMenu();
+  makeHelpMenu();
   makeBars();
   makeDock();
   makeStatusBar();
@@ -74,6 +87,7 @@ MainWindow::~MainWindow() {
 }
 
 void MainWindow::connectSession() {
+  connect(&session_, &Session::workStarted, this, &MainWindow::showWork);
   connect(&session_, &Session::historyChanged, this, &MainWindow::showTitle);
   connect(&session_, &Session::toolChanged, this, &MainWindow::showTool);
   connect(&session_, &Session::toolMoved, this, &MainWindow::showHint);
@@ -83,29 +97,6 @@ void MainWindow::connectSession() {
 }
 
 // ---- the work
-
-void MainWindow::newWork() {
-  if (!mayLeave()) return;
-  const Result<Document> document = emptyDocument(kBody);
-  if (!document) return showMessage(QString::fromStdString(document.error().message));
-  session_.start(*document, {}, tr("New, empty body"));
-}
-
-bool MainWindow::open(const std::filesystem::path& path) {
-  if (!mayLeave()) return false;
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  const Result<Document> document = openDocument(path);
-  QApplication::restoreOverrideCursor();
-  if (!document) {
-    QMessageBox::warning(this, tr("Open"),
-                         tr("%1 could not be opened: %2 The file was not changed.")
-                             .arg(fromPath(path.filename()),
-                                  QString::fromStdString(document.error().message) + '.'));
-    return false;
-  }
-  session_.start(*document, path, tr("Open %1").arg(fromPath(path.filename())));
-  return true;
-}
 
 bool MainWindow::offerLeftWork() {
   const auto left = recovery_.findLeftWork();
@@ -148,12 +139,6 @@ void MainWindow::keepBackup() {
   if (!kept) showMessage(tr("No backup: %1").arg(QString::fromStdString(kept.error().message)));
 }
 
-void MainWindow::openWithDialog() {
-  const QString file =
-      QFileDialog::getOpenFileName(this, tr("Open"), {}, tr("Designs (*.toile);;All files (*)"));
-  if (!file.isEmpty()) open(file.toStdString());
-}
-
 bool MainWindow::save() {
   return session_.path().empty() ? saveAs() : saveTo(session_.path());
 }
@@ -170,13 +155,15 @@ bool MainWindow::saveTo(const std::filesystem::path& path) {
   for (;;) {
     const Result<void> saved = session_.save(path);
     if (saved) {
+      keepRecent();
       showMessage(tr("Saved as %1").arg(fromPath(path.filename())));
       return true;
     }
     QMessageBox box(QMessageBox::Warning, tr("Not saved"),
                     tr("Not saved: %1. Your last saved file is untouched and your work is still "
                        "here.")
-                        .arg(QString::fromStdString(saved.error().message)),
+                        // The engine's advice is for the command line.
+                        .arg(QString::fromStdString(saved.error().message).section(';', 0, 0)),
                     QMessageBox::NoButton, this);
     const QAbstractButton* elsewhere = box.addButton(tr("Save elsewhere"), QMessageBox::AcceptRole);
     const QAbstractButton* again = box.addButton(tr("Try again"), QMessageBox::ActionRole);
@@ -203,6 +190,7 @@ bool MainWindow::mayLeave() {
 
 void MainWindow::closeEvent(QCloseEvent* event) {
   if (!mayLeave()) return event->ignore();
+  keepRecent();
   backupTimer_.stop();
   recovery_.forget();
   event->accept();
@@ -225,9 +213,11 @@ void MainWindow::exportPattern() {
   if (!session_.pattern() || session_.pattern()->pieces.empty()) {
     return showMessage(tr("There is nothing to export yet: no piece is closed."));
   }
-  const QString folder =
-      QFileDialog::getExistingDirectory(this, tr("Export the pattern to a folder"));
-  if (!folder.isEmpty()) exportTo(folder.toStdString());
+  if (!session_.isPatternCurrent()) {
+    return showMessage(tr("The pattern is being updated; export it in a moment."));
+  }
+  ExportDialog dialog(session_.pattern(), session_.title(), viewport_->picture(), this);
+  if (dialog.exec() == QDialog::Accepted) showMessage(tr("Exported"));
 }
 
 bool MainWindow::exportTo(const std::filesystem::path& folder) {
@@ -235,9 +225,11 @@ bool MainWindow::exportTo(const std::filesystem::path& folder) {
     showMessage(tr("The pattern is being updated; export it in a moment."));
     return false;
   }
-  QApplication::setOverrideCursor(Qt::WaitCursor);
-  const Result<WrittenPattern> written = writePattern(*session_.pattern(), folder);
-  QApplication::restoreOverrideCursor();
+  const Result<WrittenPattern> written =
+      longWork<WrittenPattern>(this, tr("The pattern is being written"),
+                               [pattern = session_.pattern(), folder](Progress& progress) {
+                                 return writePattern(*pattern, folder, &progress);
+                               });
   if (!written) {
     QMessageBox::warning(this, tr("Export"), QString::fromStdString(written.error().message));
     return false;

@@ -4,15 +4,18 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <filesystem>
+#include <optional>
 
 #include "app/actions.h"
 #include "app/palette.h"
 #include "app/session.h"
+#include "document/bodies.h"
 #include "document/recovery.h"
 
 class QDockWidget;
 class QLabel;
 class QSplitter;
+class QStackedWidget;
 class QTabWidget;
 class QToolButton;
 
@@ -20,6 +23,7 @@ namespace toile::studio {
 
 class PatternView;
 class SelectionPanel;
+class StartPage;
 class Viewport;
 
 /// The window: body on the left, pattern on the right, panel beside them.
@@ -35,10 +39,15 @@ class MainWindow final : public QMainWindow {
   [[nodiscard]] Actions& actions() { return actions_; }
 
   void newWork();
+  /// Templates, recent designs, the way to open others.
+  void showStart();
   /// Offers the work of a program that did not end as it should. @return whether it is taken up
   bool offerLeftWork();
   /// A design or a model file; asks what it must (units), tells what is wrong.
   bool open(const std::filesystem::path& path);
+  /// The same design on another body, by long work with Cancel. @return whether it is there now
+  bool putOn(const ModelReference& body);
+  bool putOnFile(const std::filesystem::path& path);
   bool save();
   bool saveAs();
   bool saveTo(const std::filesystem::path& path);
@@ -57,6 +66,19 @@ class MainWindow final : public QMainWindow {
   void makeBars();
   void makeDock();
   void makeStatusBar();
+  void makeStartPage();
+  void makeHelpMenu();
+  void showWork();
+  void startTour();
+  void openTemplate(const QString& resource, const QString& name);
+  [[nodiscard]] std::optional<Document> openModel(const std::filesystem::path& path);
+  /// The unit of a mesh file, asked for where the file does not say: an empty inner value means
+  /// that it says so itself, an empty outer one that the file is not to be opened.
+  [[nodiscard]] std::optional<std::optional<FileUnit>> unitOf(const std::filesystem::path& path);
+  void makeBodyMenu();
+  void fillBodyMenu(QMenu& menu);
+  void tellUnopened(const std::filesystem::path& path, const QString& why);
+  void keepRecent();
   void connectSession();
   /// Asks whether changes are to be kept. @return whether the work may be left
   bool mayLeave();
@@ -79,6 +101,8 @@ class MainWindow final : public QMainWindow {
   Actions actions_;
   Viewport* viewport_ = nullptr;
   PatternView* pattern_ = nullptr;
+  QStackedWidget* stack_ = nullptr;
+  StartPage* start_ = nullptr;
   QSplitter* panes_ = nullptr;
   QDockWidget* dock_ = nullptr;
   SelectionPanel* selection_ = nullptr;
@@ -93,6 +117,7 @@ class MainWindow final : public QMainWindow {
   QTimer messageTimer_;
   QTimer backupTimer_;
   Recovery recovery_;
+  Bodies bodies_{bodiesFolder()};
   QString message_;
 };
 

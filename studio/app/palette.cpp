@@ -75,6 +75,7 @@ QToolButton#kind { border: 1px solid @edge; border-radius: 0; padding: 4px 10px;
 QToolButton#kind:checked { border: 2px solid @accent; background: @accentSoft; color: @accentText; }
 QPushButton { border: 1px solid @edge; border-radius: 6px; padding: 5px 12px; background: @field; min-height: 18px; }
 QPushButton:hover { background: @hover; }
+QPushButton:checked { background: @accentSoft; color: @accentText; border-color: @accent; }
 QPushButton:focus { border: 2px solid @accent; padding: 4px 11px; }
 QPushButton:disabled { color: @disabled; border-color: @divider; }
 QPushButton#primary { background: @accent; color: white; border-color: @accent; }
@@ -83,7 +84,6 @@ QPushButton#answer { border-color: @accent; color: @accentText; }
 QLineEdit, QComboBox, QSpinBox { background: @field; border: 1px solid @edge; border-radius: 6px; padding: 3px 8px; min-height: 20px; selection-background-color: @accent; }
 QLineEdit:focus, QComboBox:focus { border: 2px solid @accent; padding: 2px 7px; }
 QLineEdit:disabled, QComboBox:disabled { color: @disabled; border-color: @divider; }
-QComboBox::drop-down { border: 0; width: 20px; }
 QComboBox QAbstractItemView { background: @panel; selection-background-color: @accentSoft; selection-color: @text; }
 QDockWidget, QDockWidget > QWidget, QScrollArea, QWidget#dock { background: @panel; border: 0; }
 QWidget#dock { border-left: 1px solid @divider; }
@@ -108,6 +108,13 @@ QScrollBar::handle:vertical { background: @divider; border-radius: 4px; min-heig
 QScrollBar::add-line, QScrollBar::sub-line { height: 0; width: 0; }
 QToolTip { background: @readOut; color: white; border: 0; padding: 4px 6px; }
 QCheckBox { spacing: 8px; }
+QWidget#startPage, QWidget#startBody, QScrollArea { background: @panel; }
+QWidget#startSide { background: @window; border-right: 1px solid @divider; }
+QWidget#startSide QToolButton { padding: 6px 10px; text-align: left; }
+QFrame#ownModel { border: 1px dashed @edge; border-radius: 9px; background: @panel; }
+QFrame#firstHint { background: @accentSoft; border-radius: 9px; }
+QListWidget#formats::item { border-radius: 6px; }
+QScrollArea#filePreview, QScrollArea#filePreview > QWidget > QWidget { background: @window; }
 QSlider::groove:horizontal { height: 4px; background: @divider; border-radius: 2px; }
 QSlider::sub-page:horizontal { background: @accent; border-radius: 2px; }
 QSlider::handle:horizontal { background: @field; border: 2px solid @accent; width: 12px; margin: -6px 0; border-radius: 8px; }
@@ -157,7 +164,10 @@ void applyTheme(QApplication& app, Theme theme) {
     q.setColor(QPalette::Disabled, role, p.disabled);
   }
   app.setPalette(q);
+  // Inter where it is installed, else what the system has.
+  static const QString kSystemFamily = app.font().family();
   QFont font = app.font();
+  font.setFamilies({QStringLiteral("Inter"), kSystemFamily});
   font.setPixelSize(13);
   app.setFont(font);
   app.setStyleSheet(styleSheet(p));

@@ -74,6 +74,28 @@ void Session::startRecovered(const Document& document, const std::filesystem::pa
   Q_EMIT historyChanged();
 }
 
+void Session::putOn(const QString& stepName, const Document& document) {
+  setTool(ToolId::Select);
+  tool_->leave(*this);
+  preview_.reset();
+  select({});
+  history_->push({stepName, QStringLiteral("body"), document, QDateTime::currentDateTime()});
+  patternIsCurrent_ = false;
+  takeBody();
+  showDocument(document);
+  Q_EMIT historyChanged();
+  worker_.ask(document, AskedFor::State);
+}
+
+void Session::takeBody() {
+  middle_ = middleLines(*document().model);
+  pattern_.reset();
+  pieces_.reset();
+  pieceIds_.clear();
+  Q_EMIT bodyChanged();
+  Q_EMIT patternChanged();
+}
+
 void Session::showDocument(const Document& document) {
   for (const Error& error : lines_.update(document)) {
     Q_EMIT told(QString::fromStdString(error.message));
@@ -122,6 +144,7 @@ void Session::jumpTo(std::size_t step) {
 void Session::afterJump() {
   preview_.reset();
   patternIsCurrent_ = false;
+  if (document().model != lines_.document().model) takeBody();
   showDocument(document());
   if (selection_.kind == Selection::Kind::Line && lines_.find(selection_.id) == nullptr) select({});
   Q_EMIT historyChanged();

@@ -29,6 +29,8 @@ class Session final : public QObject, public ToolHost {
   /// Goes on with work that was left behind: it counts as unsaved.
   void startRecovered(const Document& document, const std::filesystem::path& backup,
                       const std::filesystem::path& original);
+  /// Another body below the work: a step like any other, so that undo goes back to the one before.
+  void putOn(const QString& stepName, const Document& document);
   /// From where relative names of models count.
   [[nodiscard]] const std::filesystem::path& origin() const { return origin_; }
   [[nodiscard]] bool hasWork() const { return history_.has_value(); }
@@ -88,6 +90,7 @@ class Session final : public QObject, public ToolHost {
 
  Q_SIGNALS:
   void workStarted();   ///< another document, maybe another body
+  void bodyChanged();   ///< the same work on another body
   void linesChanged();  ///< what is drawn on the body
   void historyChanged();
   void selectionChanged();
@@ -102,6 +105,7 @@ class Session final : public QObject, public ToolHost {
   void showDocument(const Document& document);
   void take(const PatternAnswer& answer);
   void afterJump();
+  void takeBody();
 
   std::optional<History> history_;
   std::filesystem::path path_;

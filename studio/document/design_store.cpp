@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "document/bodies.h"
 #include "toile/core/file.h"
 #include "toile/design/design_file.h"
 #include "toile/shape/builtin.h"
@@ -48,6 +49,19 @@ Result<void> saveDesign(const Document& document, const std::filesystem::path& f
       path = std::filesystem::absolute(from).parent_path() / path;
     }
     if (!path.is_absolute()) continue;
+    // A model that Toile keeps for the design goes beside it.
+    if (path.parent_path() == bodiesFolder()) {
+      std::filesystem::path mesh = path;
+      mesh.replace_extension().replace_extension(".ply");
+      for (const std::filesystem::path& file : {mesh, path}) {
+        const std::filesystem::path beside = folder / file.filename();
+        if (std::filesystem::exists(beside)) continue;  // its name has its content's hash
+        const Result<std::string> content = readFile(file);
+        if (!content) return content.error();
+        if (const auto done = writeFileWhole(beside, *content); !done) return done;
+      }
+      path = folder / path.filename();
+    }
     const std::filesystem::path near = path.lexically_normal().lexically_relative(folder);
     model.reference = near.empty() ? path.string() : near.string();
   }

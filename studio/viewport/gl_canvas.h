@@ -23,6 +23,9 @@ class GlCanvas : public QWidget, protected QOpenGLExtraFunctions {
   explicit GlCanvas(QWidget* parent = nullptr);
   ~GlCanvas() override;
 
+  /// The last picture, without what was painted over it; null before the first.
+  [[nodiscard]] const QImage& picture() const { return picture_; }
+
  Q_SIGNALS:
   void painted();  ///< for the trace of latencies
 

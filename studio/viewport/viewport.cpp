@@ -29,6 +29,7 @@ Viewport::Viewport(Session& session, QWidget* parent) : GlCanvas(parent), sessio
   clock_.start();
 
   connect(&session, &Session::workStarted, this, &Viewport::bodyChanged);
+  connect(&session, &Session::bodyChanged, this, &Viewport::bodyChanged);
   connect(&session, &Session::linesChanged, this, [this] { update(); });
   connect(&session, &Session::selectionChanged, this, [this] { update(); });
   connect(&session, &Session::hoverChanged, this, [this] { update(); });

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// A program that is killed (SIGKILL, as by a power cut) in the middle of a drag: the next one offers
-// the work, with the line as it was dragged no more than ten seconds before.
+// A program that is killed (SIGKILL, as by a power cut) in the middle of a drag: the next one
+// offers the work, with the line as it was dragged no more than ten seconds before.
 #include <QApplication>
 #include <QDateTime>
 #include <QMessageBox>

@@ -36,7 +36,7 @@ QStringList filesIn(const QString& folder) {
   return files;
 }
 
-int use(MainWindow& window, const QString& toile, const std::string& pictures) {
+int drawATop(MainWindow& window, const QString& toile, const std::string& pictures) {
   Hand hand(window);
   hand.folder = pictures;
   Session& session = hand.session();
@@ -181,5 +181,5 @@ int main(int argc, char** argv) {
   window.show();
   window.activateWindow();
   wait(500);
-  return argc < 2 ? 2 : use(window, QString::fromLocal8Bit(argv[1]), argc > 2 ? argv[2] : "");
+  return argc < 2 ? 2 : drawATop(window, QString::fromLocal8Bit(argv[1]), argc > 2 ? argv[2] : "");
 }

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "jobs/long_work.h"
+
+#include <QApplication>
+#include <QEventLoop>
+#include <QProgressDialog>
+#include <QTimer>
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+
+namespace toile::studio {
+
+namespace {
+
+constexpr int kSilence = 300;  // ms without a box
+constexpr int kTell = 100;     // ms between looks at the step
+
+class Told final : public Progress {
+ public:
+  void step(std::string_view name) override {
+    const std::lock_guard lock(mutex_);
+    step_ = name;
+  }
+  [[nodiscard]] bool isCancelled() const override { return cancelled_; }
+  void cancel() { cancelled_ = true; }
+  QString stepName() const {
+    const std::lock_guard lock(mutex_);
+    return QString::fromStdString(step_);
+  }
+
+ private:
+  std::atomic<bool> cancelled_ = false;
+  mutable std::mutex mutex_;
+  std::string step_;
+};
+
+}  // namespace
+
+std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
+                                       const std::function<void(Progress&)>& work) {
+  Told told;
+  std::atomic<bool> ended = false;
+  std::optional<std::string> fault;
+  QEventLoop silent, open;
+  std::thread thread([&] {
+    try {
+      work(told);
+    } catch (const std::exception& thrown) {
+      fault = thrown.what();
+    }
+    ended = true;
+    QMetaObject::invokeMethod(&silent, &QEventLoop::quit, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(&open, &QEventLoop::quit, Qt::QueuedConnection);
+  });
+  // Short work shows nothing, and nothing can be done meanwhile that it would not expect.
+  QApplication::setOverrideCursor(Qt::WaitCursor);
+  QTimer::singleShot(kSilence, &silent, &QEventLoop::quit);
+  silent.exec(QEventLoop::ExcludeUserInputEvents);
+  QApplication::restoreOverrideCursor();
+  if (!ended) {
+    QProgressDialog box(title, QApplication::translate("LongWork", "Cancel"), 0, 0, parent);
+    box.setObjectName(QStringLiteral("longWork"));
+    box.setWindowModality(Qt::ApplicationModal);
+    box.setMinimumDuration(0);
+    box.setMinimumWidth(360);
+    QObject::connect(&box, &QProgressDialog::canceled, &box, [&] {
+      told.cancel();
+      box.setLabelText(QApplication::translate("LongWork", "%1\nStopping…").arg(title));
+      box.show();  // until it has stopped
+    });
+    QTimer look;
+    QObject::connect(&look, &QTimer::timeout, &box, [&] {
+      if (!told.isCancelled()) box.setLabelText(title + '\n' + told.stepName());
+    });
+    look.start(kTell);
+    box.show();
+    if (!ended) open.exec();
+  }
+  thread.join();
+  return fault;
+}
+
+}  // namespace toile::studio
