@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "common_options.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
 #include "toile/design/design_file.h"
@@ -25,12 +26,10 @@ struct Arguments {
   bool save = false;
   WriteOptions write;
   std::string dialect = "strict";
-  Length overlap;
 };
 
 WriteOptions writeOptions(const Arguments& arguments) {
   WriteOptions options = arguments.write;
-  options.pdf.overlap = arguments.overlap.mm();
   if (arguments.dialect == "rich") options.dxf.dialect = DxfDialect::Rich;
   if (arguments.dialect == "aama") options.dxf.dialect = DxfDialect::Aama;
   return options;
@@ -115,20 +114,11 @@ void addMake(CLI::App& app, Session& session) {
       addCommand(app, session, "make", "The whole way: cut, unfold, check, finish, arrange, write",
                  [arguments, &session] { return run(*arguments, session); });
   command->add_option("DESIGN", arguments->design, "The design, a .toile file")->required();
-  command
-      ->add_option("--body", arguments->body,
-                   "Make it for this model instead of the design's own: a mesh file, a "
-                   ".model.json or builtin:...")
-      ->type_name("MODEL");
+  addBody(*command, arguments->body);
   command->add_option("-o,--output", arguments->folder, "Folder for the files")
       ->type_name("DIR")
       ->capture_default_str();
-  addParsed(*command, "--paper", arguments->write.pdf.paper, parsePdfPaper,
-            "Paper of pattern.pdf: a4-letter (prints on both), a4, letter, a3, a0, or one sheet")
-      ->type_name("PAPER");
-  addParsed(*command, "--overlap", arguments->overlap, parseLength,
-            "Let the tiles of pattern.pdf overlap by this, to glue them, such as 12mm")
-      ->type_name("LENGTH");
+  addPaper(*command, arguments->write.pdf);
   command
       ->add_option("--dxf", arguments->dialect,
                    "pattern.dxf: strict (nothing but pieces), rich (layer tables and colours for "
@@ -136,8 +126,7 @@ void addMake(CLI::App& app, Session& session) {
       ->check(CLI::IsMember({"strict", "rich", "aama"}))
       ->capture_default_str();
   command->add_flag("--inches", arguments->write.dxf.inches, "Write pattern.dxf in inches");
-  command->add_flag("--auto-cut", arguments->options.autoCut,
-                    "Cut tubes open along the shortest way, so that they can lie flat");
+  addAutoCut(*command, arguments->options.autoCut);
   addParsed(*command, "--auto-dart", arguments->options.autoDart, parseRatio,
             "Put darts into pieces whose mean area error is greater than this, such as 5%")
       ->type_name("RATIO");

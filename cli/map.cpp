@@ -2,7 +2,6 @@
 // `toile map`: the guiding map of a model, as a picture and for its model file.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "common_options.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
 #include "toile/model/guiding_map.h"
@@ -27,22 +27,6 @@ struct Arguments {
   std::filesystem::path out;
   MapPictureOptions options;
 };
-
-void readSize(const std::string& text, MapPictureOptions& options) {
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, options.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, options.height);
-    if (height.ec == std::errc() && height.ptr == end) return;
-  }
-  throw CLI::ValidationError("--size: \"" + text +
-                             "\" is no size; write width and height in px, such as 1600x1000");
-}
-
-int refuse(const std::string& sentence) {
-  std::fprintf(stderr, "toile: %s (toile map --help)\n", sentence.c_str());
-  return kWrongCommandLine;
-}
 
 struct Made {
   Result<std::string> content;
@@ -101,13 +85,14 @@ int run(Arguments& arguments, const Session& session) {
   const bool isDesign = std::filesystem::path(arguments.in).extension() == ".toile";
   const std::string kind = arguments.out.extension().string();
   if (kind != ".png" && kind != ".svg" && kind != ".json")
-    return refuse(arguments.out.string() + ": the map can be written as .png, .svg or .json");
+    return refuse(arguments.out.string() + ": the map can be written as .png, .svg or .json",
+                  "map");
   if (isDesign && kind == ".json")
-    return refuse("a .json holds the map of a model, and " + arguments.in + " is a design");
+    return refuse("a .json holds the map of a model, and " + arguments.in + " is a design", "map");
   if (isDesign && !arguments.borders.empty())
-    return refuse("--borders is for models, and " + arguments.in + " is a design");
+    return refuse("--borders is for models, and " + arguments.in + " is a design", "map");
   if (arguments.body && !isDesign)
-    return refuse("--body is for designs, and " + arguments.in + " is a model");
+    return refuse("--body is for designs, and " + arguments.in + " is a model", "map");
   if (kind == ".svg") arguments.options.format = PictureFormat::Svg;
   TerminalProgress progress;
   progress.step("open " + arguments.in);
@@ -143,11 +128,6 @@ void addMap(CLI::App& app, Session& session) {
                    "which shows its pieces on the map and moved apart")
       ->required();
   command
-      ->add_option("--body", arguments->body,
-                   "Show the design on this model instead of its own: a mesh file, a .model.json "
-                   "or builtin:...")
-      ->type_name("MODEL");
-  command
       ->add_option("--borders", arguments->borders,
                    "Names of the model's curves, with commas between, that part the charts "
                    "(default: sharp turns; then front from back)")
@@ -160,12 +140,8 @@ void addMap(CLI::App& app, Session& session) {
                    "model file")
       ->type_name("FILE")
       ->required();
-  MapPictureOptions& options = arguments->options;
-  command
-      ->add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { readSize(text, options); },
-          "Width and height in px (default: 1600x1000)")
-      ->type_name("WxH");
+  addBody(*command, arguments->body);
+  addPictureSize(*command, arguments->options.width, arguments->options.height);
 }
 
 }  // namespace toile::cli

@@ -2,7 +2,6 @@
 // `toile render`: a picture of a design on its model, or of a model alone.
 #include <fmt/format.h>
 
-#include <charconv>
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -10,6 +9,7 @@
 #include <optional>
 
 #include "commands.h"
+#include "common_options.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
 #include "toile/pipeline.h"
@@ -35,37 +35,6 @@ void readViews(const std::vector<std::string>& lists, std::vector<RenderView>& v
     if (!more) throw CLI::ValidationError("--view: " + more.error().message);
     views.insert(views.end(), more->begin(), more->end());
   }
-}
-
-void readSize(const std::string& text, RenderOptions& options) {
-  const char* end = text.data() + text.size();
-  const auto width = std::from_chars(text.data(), end, options.width);
-  if (width.ec == std::errc() && width.ptr != end && *width.ptr == 'x') {
-    const auto height = std::from_chars(width.ptr + 1, end, options.height);
-    if (height.ec == std::errc() && height.ptr == end) return;
-  }
-  throw CLI::ValidationError("--size: \"" + text +
-                             "\" is no size; write width and height in px, such as 1600x1000");
-}
-
-template <class Choice>
-void addChoice(CLI::App& command, const std::string& name, Choice& target,
-               std::vector<std::pair<std::string, Choice>> choices, const std::string& help) {
-  std::string names;
-  for (const auto& [word, value] : choices) names += (names.empty() ? "" : ", ") + word;
-  command
-      .add_option_function<std::string>(
-          name,
-          [&target, choices, names, name](const std::string& text) {
-            for (const auto& [word, value] : choices) {
-              if (word != text) continue;
-              target = value;
-              return;
-            }
-            throw CLI::ValidationError(name + ": \"" + text + "\" is none of " + names);
-          },
-          help + ": " + names)
-      ->type_name("NAME");
 }
 
 struct Drawn {
@@ -98,18 +67,13 @@ Drawn drawModel(const Arguments& arguments, const Session& session, Progress& pr
   return {renderModel(*model, arguments.options, &progress), model->findings, {}};
 }
 
-int refuse(const std::string& sentence) {
-  std::fprintf(stderr, "toile: %s (toile render --help)\n", sentence.c_str());
-  return kWrongCommandLine;
-}
-
 int run(const Arguments& arguments, const Session& session) {
   const bool isDesign = std::filesystem::path(arguments.in).extension() == ".toile";
   if (arguments.body && !isDesign) {
-    return refuse("--body is for designs, and " + arguments.in + " is a model");
+    return refuse("--body is for designs, and " + arguments.in + " is a model", "render");
   }
   if (const Result<void> fine = checkOptions(arguments.options); !fine) {
-    return refuse(fine.error().message);
+    return refuse(fine.error().message, "render");
   }
   TerminalProgress progress;
   progress.step("open " + arguments.in);
@@ -141,11 +105,7 @@ void addRender(CLI::App& app, Session& session) {
       ->add_option("FILE", arguments->in,
                    "A .toile design, or a model: OBJ, PLY, STL, OFF, *.model.json, builtin:...")
       ->required();
-  command
-      ->add_option("--body", arguments->body,
-                   "Show the design on this model instead of its own: a mesh file, a .model.json "
-                   "or builtin:...")
-      ->type_name("MODEL");
+  addBody(*command, arguments->body);
   command->add_option("-o,--output", arguments->out, "The PNG to write")
       ->type_name("PNG")
       ->required();
@@ -159,11 +119,7 @@ void addRender(CLI::App& app, Session& session) {
           "(default: front,back)")
       ->allow_extra_args(false)
       ->type_name("VIEWS");
-  command
-      ->add_option_function<std::string>(
-          "--size", [&options](const std::string& text) { readSize(text, options); },
-          "Width and height in px (default: 1600x1000)")
-      ->type_name("WxH");
+  addPictureSize(*command, options.width, options.height);
   addChoice<RenderStyle>(*command, "--style", options.style,
                          {{"product", RenderStyle::Product}, {"plain", RenderStyle::Plain}},
                          "The finished thing, or the design's lines on pale panels");
@@ -188,8 +144,7 @@ void addRender(CLI::App& app, Session& session) {
             "How far the pieces stand off the model, 0% to 200%")
       ->type_name("PERCENT");
   command->add_flag("!--no-captions", options.captions, "Leave out names of design and views");
-  command->add_flag("--auto-cut", arguments->autoCut,
-                    "Cut tubes open along the shortest way, so that they can lie flat");
+  addAutoCut(*command, arguments->autoCut);
 }
 
 }  // namespace toile::cli
