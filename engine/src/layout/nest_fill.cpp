@@ -38,38 +38,61 @@ class Random {
 Filler::Filler(std::span<const RowShape> shapes, std::vector<Copy> copies, Bin bin)
     : shapes_(shapes), copies_(std::move(copies)), bin_(std::move(bin)), noFit_(shapes) {}
 
+/// Where a shape can lie in a row of a sheet, as far as it is known during one fill: pieces are
+/// only added, so that the first free place only moves to the right.
+struct Filler::Frontier {
+  struct Row {
+    double x = 0;             ///< nothing to the left of it is free
+    std::size_t checked = 0;  ///< so many of the placed copies leave x itself free
+  };
+  std::vector<std::vector<Row>> rows;  ///< per shape; empty until asked for
+};
+
+/// How far to the right a shape at x must move to clear what lies there; x where it is free.
+double Filler::clearOf(const Rows& noFit, int index, double offset, double x) {
+  if (index < 0 || index >= noFit.count()) return x;
+  for (const ShiftRange& range : noFit[index]) {
+    if (range.from + offset >= x) break;
+    if (range.to + offset > x) return range.to + offset;
+  }
+  return x;
+}
+
 std::optional<Placed> Filler::findPlace(const Copy& copy, std::span<const Placed> placed,
-                                        std::uint32_t sheet) const {
+                                        std::uint32_t sheet, Frontier& frontier) const {
   std::optional<Placed> best;
   double bestEnd = bin_.length.value_or(kInfinity) + 1e-9;
-  std::vector<ShiftRange> ranges;
+  frontier.rows.resize(shapes_.size());
   for (const std::uint32_t s : copy.shapes) {
     const RowShape& shape = shapes_[s];
     const int rows = shape.rows.count();
     const double room = bin_.height - shape.height + 1e-9;
     if (room < 0) continue;
     const int last = copy.onFold ? 0 : static_cast<int>(room / bin_.rowHeight);
+    std::vector<Frontier::Row>& known = frontier.rows[s];
+    if (known.empty()) known.resize(static_cast<std::size_t>(room / bin_.rowHeight) + 1);
     for (int row = 0; row <= last; ++row) {
-      const double mostX = bestEnd - shape.width;
-      ranges.clear();
-      const auto add = [&](const Rows& noFit, int difference, double x) {
-        const int index = difference + rows - 1;
-        if (index < 0 || index >= noFit.count()) return;
-        for (const ShiftRange& range : noFit[index])
-          if (range.from + x < mostX && range.to + x > 0)
-            ranges.push_back({range.from + x, range.to + x});
-      };
-      if (!bin_.blocked.empty()) add(bin_.blocked[s], row, 0);
-      for (const Placed& other : placed)
-        if (other.sheet == sheet) add(noFit_.of(other.shape, s), row - other.row, other.x);
-      std::sort(ranges.begin(), ranges.end(),
-                [](const ShiftRange& a, const ShiftRange& b) { return a.from < b.from; });
-      double x = 0;
-      for (const ShiftRange& range : ranges) {
-        if (range.from >= x) break;  // free ahead of all that begins later
-        x = std::max(x, range.to);
+      Frontier::Row& first = known[static_cast<std::size_t>(row)];
+      double x = first.x;
+      bool isFree = false;
+      while (!isFree && x + shape.width < bestEnd) {
+        isFree = true;
+        const auto moveTo = [&](double next) {
+          if (next <= x) return;
+          x = next;
+          isFree = false;
+        };
+        if (first.checked == 0 && !bin_.blocked.empty())
+          moveTo(clearOf(bin_.blocked[s], row + rows - 1, 0, x));
+        for (std::size_t i = first.checked; i < placed.size() && x + shape.width < bestEnd; ++i) {
+          const Placed& other = placed[i];
+          if (other.sheet != sheet) continue;
+          moveTo(clearOf(noFit_.of(other.shape, s), row - other.row + rows - 1, other.x, x));
+        }
+        first.checked = isFree ? placed.size() : 0;
       }
-      if (x + shape.width >= bestEnd) continue;
+      first.x = x;
+      if (!isFree || x + shape.width >= bestEnd) continue;
       bestEnd = x + shape.width;
       best = Placed{s, sheet, row, x};
     }
@@ -94,13 +117,15 @@ bool Filler::fill(Fill& fill, std::size_t from, double most) const {
     return fill.value <= most;
   };
   for (const Placed& place : fill.places) count(place);
+  std::vector<Frontier> frontiers;
   for (std::size_t i = from; i < fill.order.size(); ++i) {
     const Copy& copy = copies_[fill.order[i]];
     std::optional<Placed> place;
     for (std::uint32_t sheet = 0; !place; ++sheet) {
       // A copy that finds no place on an empty sheet finds none at all.
       if (sheet > sheets + 1 || sheet >= bin_.mostSheets) return false;
-      place = findPlace(copy, fill.places, sheet);
+      if (sheet >= frontiers.size()) frontiers.emplace_back();
+      place = findPlace(copy, fill.places, sheet, frontiers[sheet]);
     }
     fill.places.push_back(*place);
     if (!count(*place)) return false;

@@ -55,8 +55,10 @@ class Filler {
   [[nodiscard]] const RowShape& shape(std::uint32_t s) const { return shapes_[s]; }
 
  private:
+  struct Frontier;
+  [[nodiscard]] static double clearOf(const Rows& noFit, int index, double offset, double x);
   [[nodiscard]] std::optional<Placed> findPlace(const Copy& copy, std::span<const Placed> placed,
-                                                std::uint32_t sheet) const;
+                                                std::uint32_t sheet, Frontier& frontier) const;
 
   std::span<const RowShape> shapes_;
   std::vector<Copy> copies_;
