@@ -11,6 +11,7 @@
 #include "finish/marking.h"
 #include "finish/polygon.h"
 #include "io/ascii.h"
+#include "layout/clearance.h"
 #include "toile/io/dxf_file.h"
 
 namespace toile {
@@ -339,7 +340,17 @@ Result<Pattern> patternFrom(const DxfDrawing& drawing, const std::string& name,
                                      [&](const DxfInsert& i) { return i.block == block.name; });
     PieceReader reader(block, insert == drawing.inserts.end() ? nullptr : &*insert,
                        millimetresPer(drawing.unit));
-    if (auto piece = reader.read(pattern.findings)) {
+    auto piece = reader.read(pattern.findings);
+    const auto crossing =
+        piece ? findSelfCrossing(positions(piece->cutLines.front())) : std::nullopt;
+    if (crossing) {
+      pattern.findings.push_back(
+          {"dxf-crossing-outline",
+           fmt::format("the outline of block \"{}\" crosses itself at ({:.1f}, {:.1f}) mm; the "
+                       "piece is left out",
+                       block.name, crossing->x(), crossing->y()),
+           {Element::piece(block.name)}});
+    } else if (piece) {
       pattern.pieces.push_back(*std::move(piece));
     } else {
       pattern.findings.push_back(
@@ -351,7 +362,7 @@ Result<Pattern> patternFrom(const DxfDrawing& drawing, const std::string& name,
   if (pattern.pieces.empty())
     return Error{ErrorCode::FileFormat,
                  fmt::format("{} holds no pieces: none of its {} blocks has a closed outline on "
-                             "layer 1",
+                             "layer 1 that does not cross itself",
                              name, drawing.blocks.size()),
                  {}};
   Points2 all;

@@ -144,4 +144,30 @@ double distanceBetween(const Points2& a, const Points2& b) {
   return least;
 }
 
+std::optional<Eigen::Vector2d> findSelfCrossing(const Points2& polygon) {
+  struct Segment {
+    Eigen::Vector2d a, b;
+    [[nodiscard]] double left() const { return std::min(a.x(), b.x()); }
+    [[nodiscard]] double right() const { return std::max(a.x(), b.x()); }
+    /// Twice the area of the triangle with a point: its sign is the side.
+    [[nodiscard]] double side(const Eigen::Vector2d& p) const { return cross(b - a, p - a); }
+  };
+  std::vector<Segment> segments;
+  for (std::size_t i = 0; i < polygon.size(); ++i)
+    segments.push_back({polygon[i], polygon[(i + 1) % polygon.size()]});
+  std::sort(segments.begin(), segments.end(),
+            [](const Segment& s, const Segment& t) { return s.left() < t.left(); });
+  for (std::size_t i = 0; i < segments.size(); ++i) {
+    const Segment& s = segments[i];
+    for (std::size_t j = i + 1; j < segments.size() && segments[j].left() < s.right(); ++j) {
+      const Segment& t = segments[j];
+      const double before = s.side(t.a);
+      const double after = s.side(t.b);
+      if (before * after < 0 && t.side(s.a) * t.side(s.b) < 0)
+        return t.a + before / (before - after) * (t.b - t.a);
+    }
+  }
+  return std::nullopt;
+}
+
 }  // namespace toile

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "finish/polygon.h"
@@ -29,5 +30,9 @@ void addBlockedShifts(const Points2& moving, const Points2& fixed, int axis,
 
 /// Least distance between the lines of two polygons; 0 where they cross or one holds the other.
 [[nodiscard]] double distanceBetween(const Points2& a, const Points2& b);
+
+/// Where two edges of a polygon cross, other than in a common end; nothing in a simple polygon.
+/// Edges that only touch do not cross.
+[[nodiscard]] std::optional<Eigen::Vector2d> findSelfCrossing(const Points2& polygon);
 
 }  // namespace toile

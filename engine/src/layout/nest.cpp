@@ -110,6 +110,9 @@ class Problem {
         return fail(fmt::format(
             "piece \"{}\" has no outline that can be cut (a closed line, counter-clockwise)",
             part.name));
+      if (const auto crossing = findSelfCrossing(part.outline))
+        return fail(fmt::format("the outline of piece \"{}\" crosses itself at ({:.1f}, {:.1f}) mm",
+                                part.name, crossing->x(), crossing->y()));
     }
     if (copies == 0) return fail("there is nothing to nest");
     if (copies > kMostCopies)
@@ -151,7 +154,7 @@ class Problem {
         }
         for (const double angle : turnsOf(turned)) {
           copy.shapes.push_back(static_cast<std::uint32_t>(shapes_.size()));
-          addShape(turned.outline, angle);
+          addShape(turned.outline, angle, part.onFold);
         }
         copies_.insert(copies_.end(), static_cast<std::size_t>(count), copy);
         places_.insert(places_.end(), static_cast<std::size_t>(count),
@@ -160,11 +163,15 @@ class Problem {
     }
   }
 
-  void addShape(const Points2& outline, double angle) {
+  void addShape(const Points2& outline, double angle, bool onFold) {
     const Placement turn{angle, Vector2d::Zero()};
     Points2 turned;
     for (const Vector2d& p : outline) turned.push_back(turn.apply(p));
     Points2 grownBy = grown(turned, 0.5 * options_.gap, kGrowTolerance);
+    // Nothing lies beyond the fold: half a gap there to the last bit brings the edge onto it.
+    if (onFold)
+      for (Vector2d& p : grownBy)
+        p.y() = std::max(p.y(), boxOf(turned).min.y() - 0.5 * options_.gap);
     shapes_.push_back(nesting::makeRowShape(grownBy, bin_.rowHeight));
     angles_.push_back(angle);
     grown_.push_back(std::move(grownBy));

@@ -219,6 +219,27 @@ TEST(DxfFile, TellsWhatItLeavesOut) {
   EXPECT_EQ(drawing.blocks[0].entities.size(), 1u);
 }
 
+TEST(DxfFile, LeavesOutAnOutlineThatCrossesItself) {
+  const std::string crossed =
+      "0 POLYLINE\n8 1\n66 1\n70 1\n0 VERTEX\n8 1\n10 0\n20 0\n0 VERTEX\n8 1\n10 300\n20 200\n"
+      "0 VERTEX\n8 1\n10 300\n20 0\n0 VERTEX\n8 1\n10 0\n20 200\n0 VERTEX\n8 1\n10 -50\n20 100\n"
+      "0 SEQEND\n";
+  const Result<Pattern> pattern = patternFrom(read(fileOf(crossed, kMetric)), "crossed");
+  ASSERT_FALSE(pattern);
+  EXPECT_THAT(pattern.error().message, HasSubstr("does not cross itself"));
+  // Beside one that can be cut it is told.
+  const std::string both = groups(
+      "0 SECTION\n2 BLOCKS\n0 BLOCK\n8 1\n2 GOOD\n70 0\n10 0\n20 0\n" + std::string(kSquare) +
+      "0 ENDBLK\n8 1\n0 BLOCK\n8 1\n2 BAD\n70 0\n10 0\n20 0\n" + crossed +
+      "0 ENDBLK\n8 1\n0 ENDSEC\n0 SECTION\n2 ENTITIES\n" + kMetric + "0 ENDSEC\n0 EOF\n");
+  const Result<Pattern> one = patternFrom(read(both), "both");
+  ASSERT_TRUE(one) << one.error();
+  EXPECT_EQ(one->pieces.size(), 1u);
+  ASSERT_EQ(one->findings.size(), 1u);
+  EXPECT_EQ(one->findings[0].code, "dxf-crossing-outline");
+  EXPECT_THAT(one->findings[0].message, HasSubstr("\"BAD\" crosses itself at (150.0, 100.0)"));
+}
+
 TEST(DxfFile, RefusesDamage) {
   const std::string whole = fileOf(kSquare, kMetric);
   const auto refusal = [](const std::string& text) {
@@ -276,8 +297,8 @@ TEST(DxfFile, OfOursReadsAsWritten) {
     EXPECT_EQ(again->pieces[i].count, pattern.pieces[i].count);
   }
   // What was read can be drawn.
-  EXPECT_THAT(writeSvg(*again), HasSubstr("data-piece=\"ELL_M\""));
-  EXPECT_TRUE(writePdf(*again));
+  EXPECT_THAT(writeSvg(drawSheet(*again)), HasSubstr("data-piece=\"ELL_M\""));
+  EXPECT_TRUE(writePdf(drawSheet(*again)));
 }
 
 }  // namespace

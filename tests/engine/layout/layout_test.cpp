@@ -285,6 +285,15 @@ TEST(Clearance, GrownHoldsEverythingNear) {
   for (const Vector2d& p : wide) EXPECT_LE(EdgeGrid({ell}).nearest(p).distance, 6);
 }
 
+TEST(Clearance, FindsWhereAnOutlineCrossesItself) {
+  const auto crossing = findSelfCrossing({{0, 0}, {10, 10}, {10, 0}, {0, 10}});
+  ASSERT_TRUE(crossing);
+  EXPECT_NEAR((*crossing - Vector2d(5, 5)).norm(), 0, 1e-12);
+  EXPECT_FALSE(findSelfCrossing({{0, 0}, {10, 0}, {10, 10}, {0, 10}}));
+  // A corner that touches a side does not cross it.
+  EXPECT_FALSE(findSelfCrossing({{0, 0}, {10, 0}, {10, 10}, {5, 0}, {0, 10}}));
+}
+
 TEST(Clearance, DistanceSeesCrossingAndHolding) {
   const Points2 a{{0, 0}, {10, 0}, {10, 10}, {0, 10}};
   const Points2 apart{{13, 4}, {20, 4}, {20, 6}};

@@ -224,6 +224,9 @@ TEST(Nest, RefusesWhatCannotBeCut) {
   NestPart nowhere = rectangle(10, 10);
   nowhere.outline[1].x() = std::nan("");
   EXPECT_NE(refusal(nowhere, {.width = 100}).find("no outline"), std::string::npos);
+  NestPart crossed = rectangle(10, 10);
+  crossed.outline = {{0, 0}, {30, 0}, {30, 20}, {10, -5}, {0, 20}};
+  EXPECT_NE(refusal(crossed, {.width = 100}).find("crosses itself at ("), std::string::npos);
 }
 
 // The rows cover the polygon: no point of it lies outside of its row's ranges.
