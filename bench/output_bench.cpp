@@ -89,7 +89,7 @@ void BM_WriteDxf(benchmark::State& state) {
 void BM_WriteSvg(benchmark::State& state) {
   const Pattern& pattern = samplePattern(state);
   std::size_t size = 0;
-  for (auto _ : state) size = writeSvg(pattern).size();
+  for (auto _ : state) size = writeSvg(drawSheet(pattern)).size();
   state.SetBytesProcessed(static_cast<std::int64_t>(size) * state.iterations());
 }
 
@@ -97,7 +97,7 @@ void BM_WritePdf(benchmark::State& state) {
   const Pattern& pattern = samplePattern(state);
   std::size_t size = 0;
   for (auto _ : state) {
-    if (const auto pdf = writePdf(pattern)) size = pdf->size();
+    if (const auto pdf = writePdf(drawSheet(pattern))) size = pdf->size();
   }
   state.SetBytesProcessed(static_cast<std::int64_t>(size) * state.iterations());
 }

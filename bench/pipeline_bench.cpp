@@ -122,8 +122,8 @@ void writeDrawings(benchmark::State& state, const Shape& shape) {
   if (!pattern) return;
   for (auto _ : state) {
     benchmark::DoNotOptimize(writeDxf(*pattern));
-    benchmark::DoNotOptimize(writeSvg(*pattern));
-    benchmark::DoNotOptimize(writePdf(*pattern));
+    benchmark::DoNotOptimize(writeSvg(drawSheet(*pattern)));
+    benchmark::DoNotOptimize(writePdf(drawSheet(*pattern)));
   }
 }
 
@@ -169,15 +169,45 @@ void wholeWay(benchmark::State& state, const Shape& shape) {
   std::filesystem::remove_all(folder, ignored);
 }
 
+/// What a user waits for after the last piece is unfolded: layout, finishing and all files.
+void finishAndWrite(benchmark::State& state, const Shape& shape) {
+  auto pattern = make(state, shape);
+  if (!pattern) return;
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / "toile-pipeline-bench";
+  for (auto _ : state) {
+    auto pieces = finish(pattern->document, pattern->curves, pattern->cut, pattern->flats);
+    if (!pieces) return state.SkipWithError(pieces.error().message.c_str());
+    pattern->pieces = *std::move(pieces);
+    auto layout = arrange(*pattern->document.model, pattern->cut, pattern->flats, pattern->pieces,
+                          pattern->pieceIndex);
+    if (!layout) return state.SkipWithError(layout.error().message.c_str());
+    pattern->layout = *std::move(layout);
+    const Result<WrittenPattern> written = writePattern(*pattern, folder);
+    if (!written) return state.SkipWithError(written.error().message.c_str());
+  }
+  state.counters["pieces"] = static_cast<double>(pattern->pieces.size());
+  std::error_code ignored;
+  std::filesystem::remove_all(folder, ignored);
+}
+
 using Step = void (*)(benchmark::State&, const Shape&);
 
 const bool kRegistered = [] {
-  const std::pair<const char*, Step> steps[] = {
-      {"Yardstick", yardstick}, {"Open", openTheDocument},      {"PlaceCurves", place},
-      {"Cut", cutAll},          {"UnfoldOneThread", unfoldAll}, {"Finish", finishAll},
-      {"Arrange", arrangeAll},  {"MakePattern", makeAll},       {"MakePatternAgain", makeAgain},
-      {"Picture", drawPicture}, {"Drawings", writeDrawings},    {"Reports", writeReports},
-      {"WholeWay", wholeWay}};
+  const std::pair<const char*, Step> steps[] = {{"Yardstick", yardstick},
+                                                {"Open", openTheDocument},
+                                                {"PlaceCurves", place},
+                                                {"Cut", cutAll},
+                                                {"UnfoldOneThread", unfoldAll},
+                                                {"Finish", finishAll},
+                                                {"Arrange", arrangeAll},
+                                                {"MakePattern", makeAll},
+                                                {"MakePatternAgain", makeAgain},
+                                                {"Picture", drawPicture},
+                                                {"Drawings", writeDrawings},
+                                                {"Reports", writeReports},
+                                                {"FinishAndWrite", finishAndWrite},
+                                                {"WholeWay", wholeWay}};
   for (const auto& [shapeName, shape] :
        {std::pair("Vest", kVest), std::pair("Wetsuit", kWetsuit)}) {
     for (const auto& [name, step] : steps) {
@@ -185,6 +215,7 @@ const bool kRegistered = [] {
           (std::string("BM_Pipeline") + shapeName + "/" + name).c_str(),
           [step = step, shape = shape](benchmark::State& state) { step(state, shape); })
           ->Unit(benchmark::kMillisecond)
+          ->MeasureProcessCPUTime()
           ->UseRealTime();
     }
   }

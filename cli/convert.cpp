@@ -8,6 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "commands.h"
+#include "common_options.h"
 #include "toile/core/file.h"
 #include "toile/io/dxf.h"
 #include "toile/io/dxf_file.h"
@@ -23,7 +24,6 @@ struct ConvertArguments {
   std::optional<std::filesystem::path> out;
   std::optional<std::string> size;
   PdfOptions pdf;
-  Length overlap;
   bool laser = false;
 };
 
@@ -31,13 +31,12 @@ struct ConvertArguments {
 Result<std::string> write(const ConvertArguments& arguments, const DxfDrawing& drawing,
                           const Pattern& pattern) {
   const std::string ending = arguments.out->extension().string();
-  PdfOptions pdf = arguments.pdf;
-  pdf.overlap = arguments.overlap.mm();
-  if (ending == ".dxf" && arguments.laser) return writeLaserDxf(pattern);
-  if (ending == ".dxf") return writeDxf(drawing);
-  if (ending == ".svg") return writeSvg(pattern);
-  if (ending == ".pdf") return writePdf(pattern, pdf);
-  if (ending == ".plt" || ending == ".hpgl") return writeHpgl(pattern);
+  if (ending == ".dxf" && !arguments.laser) return writeDxf(drawing);
+  const SheetDrawing sheet = drawSheet(pattern);
+  if (ending == ".dxf") return writeLaserDxf(sheet);
+  if (ending == ".svg") return writeSvg(sheet);
+  if (ending == ".pdf") return writePdf(sheet, arguments.pdf);
+  if (ending == ".plt" || ending == ".hpgl") return writeHpgl(sheet);
   return Error{ErrorCode::InvalidArgument,
                fmt::format("{}: give a file name that ends in .dxf, .svg, .pdf or .plt",
                            arguments.out->string()),
@@ -122,12 +121,7 @@ void addConvert(CLI::App& app, Session& session) {
       ->add_option("-o,--output", arguments->out,
                    "File to write: .dxf as it was read, .svg, .plt, or .pdf in tiles for a printer")
       ->type_name("OUT");
-  addParsed(*command, "--paper", arguments->pdf.paper, parsePdfPaper,
-            "Paper of a .pdf: a4-letter (prints on both), a4, letter, a3, a0, or one sheet")
-      ->type_name("PAPER");
-  addParsed(*command, "--overlap", arguments->overlap, parseLength,
-            "Let the tiles of a .pdf overlap by this, to glue them, such as 12mm")
-      ->type_name("LENGTH");
+  addPaper(*command, arguments->pdf);
   command->add_flag("--laser", arguments->laser,
                     "Write a .dxf of plain lines for a laser: cut red, mark blue, engrave green");
   command

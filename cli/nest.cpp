@@ -9,8 +9,12 @@
 #include <optional>
 
 #include "commands.h"
+#include "common_options.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
+#include "toile/io/dxf.h"
+#include "toile/io/hpgl.h"
+#include "toile/io/pdf.h"
 #include "toile/io/svg.h"
 #include "toile/pipeline.h"
 #include "toile/pipeline/marker.h"
@@ -25,6 +29,7 @@ struct Arguments {
   std::optional<std::filesystem::path> hide;
   std::optional<Length> gap, margin;
   MarkerOptions options;
+  PdfOptions pdf{.paper = PdfPaper::OneSheet};
   bool autoCut = false;
 };
 
@@ -96,6 +101,20 @@ std::string fileWord(const std::string& id) {
   return out;
 }
 
+/// A marker in every format: name and content of each file.
+using Files = std::vector<std::pair<std::string, Result<std::string>>>;
+Files filesOf(const Marker& marker, const Arguments& arguments) {
+  const std::string name = marker.fabric.empty() ? "marker" : "marker-" + fileWord(marker.fabric);
+  PdfOptions pdf = arguments.pdf;
+  // A page of PDF ends at 5 m.
+  const bool isLong = (marker.sheet.max - marker.sheet.min).maxCoeff() > kMostPdfSheetMm;
+  if (isLong && pdf.paper == PdfPaper::OneSheet) pdf.paper = PdfPaper::A0;
+  return {{name + ".svg", writeSvg(marker.sheet)},
+          {name + ".dxf", writeLaserDxf(marker.sheet)},
+          {name + ".plt", writeHpgl(marker.sheet)},
+          {name + ".pdf", writePdf(marker.sheet, pdf)}};
+}
+
 int run(Arguments& arguments, const Session& session) {
   TerminalProgress progress;
   MarkerOptions& options = arguments.options;
@@ -116,19 +135,19 @@ int run(Arguments& arguments, const Session& session) {
   const Result<std::vector<Marker>> markers = makeMarkers(*orders, options, &progress);
   if (!markers) return fail(markers.error());
 
-  nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  const auto write = [&](const std::string& name, const std::string& content) {
-    files.push_back((arguments.folder / name).string());
-    return writeFileWhole(arguments.folder / name, content);
-  };
+  progress.step("write the files");
   if (const Result<void> made = makeFolder(arguments.folder); !made) return fail(made.error());
   for (const Marker& marker : *markers) {
-    const std::string name = marker.fabric.empty() ? "marker" : "marker-" + fileWord(marker.fabric);
-    if (const Result<void> done = write(name + ".svg", writeSvg(marker.sheet)); !done)
-      return fail(done.error());
+    for (const auto& [name, content] : filesOf(marker, arguments)) {
+      if (!content) return fail(content.error().during(name));
+      if (const Result<void> done = writeFileWhole(arguments.folder / name, *content); !done)
+        return fail(done.error());
+    }
+    if (const int told = report(marker.findings, session); told != kDone) status = told;
   }
   const std::string figures = writeMarkersJson(*markers);
-  if (const Result<void> done = write("markers.json", figures); !done) return fail(done.error());
+  if (const Result<void> done = writeFileWhole(arguments.folder / "markers.json", figures); !done)
+    return fail(done.error());
   if (session.json) {
     std::printf("%s", figures.c_str());
     return status;
@@ -178,23 +197,13 @@ void addNest(CLI::App& app, Session& session) {
   addParsed(*command, "--margin", arguments->margin, parseLength,
             "Least distance from the edges of the material (default: 0mm)")
       ->type_name("LENGTH");
-  command
-      ->add_option_function<std::string>(
-          "--turns",
-          [arguments](const std::string& text) {
-            if (text == "one-way")
-              arguments->options.turns = Turns::OneWay;
-            else if (text == "two-way")
-              arguments->options.turns = Turns::TwoWay;
-            else if (text == "any")
-              arguments->options.turns = Turns::Any;
-            else
-              throw CLI::ValidationError("--turns: \"" + text +
-                                         "\" is none of one-way, two-way, any");
-          },
-          "How pieces may lie, instead of what the fabric says: one-way (nap), two-way (grain), "
-          "any")
-      ->type_name("NAME");
+  addChoice<Turns>(*command, "--turns", arguments->options.turns,
+                   {{"one-way", Turns::OneWay}, {"two-way", Turns::TwoWay}, {"any", Turns::Any}},
+                   "How pieces may lie, instead of what the fabric says (nap, grain, neither)");
+  command->add_flag("--fold", arguments->options.fold,
+                    "Lay the cloth double: symmetric pieces are cut on its fold, mirrored ones "
+                    "together");
+  addPaper(*command, arguments->pdf);
   command->add_option("--copies", arguments->options.copies, "Copies of each order")
       ->check(CLI::Range(1, 1000))
       ->capture_default_str();
@@ -205,8 +214,7 @@ void addNest(CLI::App& app, Session& session) {
                    "0: the first marker found; each further level takes about twice as long")
       ->check(CLI::Range(0, kMostEffort))
       ->capture_default_str();
-  command->add_flag("--auto-cut", arguments->autoCut,
-                    "Cut tubes open along the shortest way, so that they can lie flat");
+  addAutoCut(*command, arguments->autoCut);
 }
 
 }  // namespace toile::cli

@@ -13,7 +13,6 @@
 #include "io/ascii.h"
 #include "io/dxf_text.h"
 #include "io/file_date.h"
-#include "io/sheet_drawing.h"
 #include "toile/core/version.h"
 #include "toile/io/nested.h"
 #include "toile/sew/sewing.h"

@@ -25,17 +25,19 @@ struct Position {
 
 class Writer {
  public:
-  Writer(const Pattern& pattern, const HpglOptions& options)
-      : pattern_(pattern), options_(options) {}
+  Writer(const SheetDrawing& sheet, const HpglOptions& options)
+      : sheet_(sheet), options_(options) {}
 
   std::string write() {
-    const Eigen::Vector2d size = pattern_.layout.max - pattern_.layout.min;
+    const Eigen::Vector2d size = sheet_.max - sheet_.min;
     text_ = "IN;\n";
     if (options_.version2)
-      text_ += fmt::format("PS{},{};\n", units(size.maxCoeff()), units(size.minCoeff()));
+      text_ += fmt::format("PS{},{};\n", units(isTurned() ? size.y() : size.x()),
+                           units(isTurned() ? size.x() : size.y()));
     text_ += "PA;\n";
-    for (const std::vector<MachineLine>& lines : machineLines(pattern_))
-      for (const MachineLine& line : lines) draw(line);
+    for (const MachineLine& line : machineLines(sheet_.around)) draw(line);
+    for (const PieceDrawing& piece : sheet_.pieces)
+      for (const MachineLine& line : machineLines(piece)) draw(line);
     text_ += "PU;\nSP0;\n";
     if (options_.version2) text_ += "PG;\n";
     return std::move(text_);
@@ -44,18 +46,19 @@ class Writer {
  private:
   static std::int64_t units(double mm) { return std::llround(mm * kUnitsPerMm); }
 
-  /// The longer side of the sheet is the plotter's X; turned, not mirrored.
+  /// The longer side of the sheet (of a marker its length) is the plotter's X; turned, not
+  /// mirrored.
   [[nodiscard]] Position toPlotter(const Eigen::Vector2d& p) const {
-    const Eigen::Vector2d size = pattern_.layout.max - pattern_.layout.min;
-    Eigen::Vector2d q = p - pattern_.layout.min;
+    const Eigen::Vector2d size = sheet_.max - sheet_.min;
+    Eigen::Vector2d q = p - sheet_.min;
     if (isTurned()) q = {q.y(), size.x() - q.x()};
     if (options_.originInMiddle)
       q -= 0.5 * (isTurned() ? Eigen::Vector2d(size.y(), size.x()) : size);
     return {units(q.x()), units(q.y())};
   }
   [[nodiscard]] bool isTurned() const {
-    const Eigen::Vector2d size = pattern_.layout.max - pattern_.layout.min;
-    return size.y() > size.x();
+    const Eigen::Vector2d size = sheet_.max - sheet_.min;
+    return !sheet_.isMarker && size.y() > size.x();
   }
 
   [[nodiscard]] int penOf(MachineTask task) const {
@@ -109,7 +112,7 @@ class Writer {
     }
   }
 
-  const Pattern& pattern_;
+  const SheetDrawing& sheet_;
   HpglOptions options_;
   std::string text_;
   int pen_ = 0;
@@ -117,7 +120,7 @@ class Writer {
 
 }  // namespace
 
-Result<std::string> writeHpgl(const Pattern& pattern, const HpglOptions& options) {
+Result<std::string> writeHpgl(const SheetDrawing& sheet, const HpglOptions& options) {
   for (const int pen : {options.drawPen, options.cutPen, options.textPen})
     if (pen < 1 || pen > 8)
       return Error{ErrorCode::InvalidArgument,
@@ -127,7 +130,7 @@ Result<std::string> writeHpgl(const Pattern& pattern, const HpglOptions& options
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("an overcut of {} mm; give 0 to 20 mm", options.overcut),
                  {}};
-  const Eigen::Vector2d size = pattern.layout.max - pattern.layout.min;
+  const Eigen::Vector2d size = sheet.max - sheet.min;
   const double most = options.version2 ? kMostMm : kMostVersion1Mm;
   if (size.maxCoeff() > most)
     return Error{ErrorCode::Unsupported,
@@ -135,7 +138,7 @@ Result<std::string> writeHpgl(const Pattern& pattern, const HpglOptions& options
                              size.x(), size.y(), options.version2 ? "a plot" : "HP-GL/1", most,
                              options.version2 ? "" : "; use HP-GL/2"),
                  {}};
-  return Writer(pattern, options).write();
+  return Writer(sheet, options).write();
 }
 
 }  // namespace toile

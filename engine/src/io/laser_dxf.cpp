@@ -22,7 +22,7 @@ constexpr std::array<LaserLayer, 3> kLayers{{{MachineTask::Engrave, "ENGRAVE", 3
 
 }  // namespace
 
-std::string writeLaserDxf(const Pattern& pattern) {
+std::string writeLaserDxf(const SheetDrawing& sheet) {
   DxfText out;
   out.section("HEADER");
   out.group(9, "$ACADVER");
@@ -44,15 +44,15 @@ std::string writeLaserDxf(const Pattern& pattern) {
   out.group(0, "ENDTAB");
   out.endSection();
   out.section("ENTITIES");
-  const std::vector<std::vector<MachineLine>> pieces = machineLines(pattern);
+  std::vector<std::vector<MachineLine>> pieces;
+  for (const PieceDrawing& piece : sheet.pieces) pieces.push_back(machineLines(piece));
   // All that is engraved, then all marks, then the cuts: what is cut may move.
   for (const LaserLayer& layer : kLayers)
     for (const std::vector<MachineLine>& lines : pieces)
       for (const MachineLine& line : lines) {
         if (line.task != layer.task) continue;
         std::vector<DxfPoint> points;
-        for (const Eigen::Vector2d& p : line.points)
-          points.push_back(toDxf(p - pattern.layout.min));
+        for (const Eigen::Vector2d& p : line.points) points.push_back(toDxf(p - sheet.min));
         out.polyline(layer.name, points, line.closed, layer.colour);
       }
   out.endSection();

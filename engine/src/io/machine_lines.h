@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "finish/polygon.h"
-#include "toile/layout/pattern.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
@@ -17,9 +17,9 @@ struct MachineLine {
   bool closed = false;
 };
 
-/// All lines of all pieces, piece by piece: texts as strokes, then what is drawn, then notches,
-/// holes and last the outline, so that a piece lies still until it is done. Slit notches and the
-/// like are cut; T notches are drawn.
-[[nodiscard]] std::vector<std::vector<MachineLine>> machineLines(const Pattern& pattern);
+/// All lines of a piece: texts as strokes, then what is drawn, then notches, holes and last the
+/// outline, so that the piece lies still until it is done. Slit notches and the like are cut; T
+/// notches are drawn.
+[[nodiscard]] std::vector<MachineLine> machineLines(const PieceDrawing& drawing);
 
 }  // namespace toile

@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "io/markup.h"
-#include "io/sheet_drawing.h"
 #include "toile/io/nested.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
@@ -30,9 +30,8 @@ class Writer {
       : sizes_(sizes), out_(std::back_inserter(text_)) {
     for (const NestedSize& size : sizes) {
       sheets_.push_back(drawSheet(*size.pattern));
-      const Box2& box = sheets_.back().box;
-      min_ = min_.cwiseMin(box.min);
-      max_ = max_.cwiseMax(box.max);
+      min_ = min_.cwiseMin(sheets_.back().min);
+      max_ = max_.cwiseMax(sheets_.back().max);
     }
     key_ = kKeyLineMm * (static_cast<double>(sizes.size()) + 1);
   }

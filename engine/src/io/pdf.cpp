@@ -5,14 +5,14 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <numbers>
 #include <utility>
 
-#include "io/file_date.h"
 #include "io/pdf_canvas.h"
 #include "io/pdf_tiles.h"
 #include "io/pdf_update.h"
-#include "io/sheet_drawing.h"
 
 namespace toile {
 namespace {
@@ -31,36 +31,29 @@ Page pageOf(PdfPaper paper) {
   const auto whole = [](const char* name, double width, double height) {
     return Page{name, width, height, width - 2 * kPrinterMarginMm, height - 2 * kPrinterMarginMm};
   };
-  // The name of the tile stands above its frame, its pieces below.
-  constexpr double kCaptionsMm = 12;
-  Page page{"A4 or Letter", 210, 297, kTileWidthMm, kTileHeightMm};
+  const Page both{"A4 or Letter", 210, 297, kTileWidthMm, kTileHeightMm};
   switch (paper) {
     case PdfPaper::A4OrLetter:
     case PdfPaper::OneSheet:
-      return page;
+      break;
     case PdfPaper::A4:
-      page = whole("A4", 210, 297);
-      break;
+      return whole("A4", 210, 297);
     case PdfPaper::Letter:
-      page = whole("Letter", 215.9, 279.4);
-      break;
+      return whole("Letter", 215.9, 279.4);
     case PdfPaper::A3:
-      page = whole("A3", 297, 420);
-      break;
+      return whole("A3", 297, 420);
     case PdfPaper::A0:
-      page = whole("A0", 841, 1189);
-      break;
+      return whole("A0", 841, 1189);
   }
-  page.tileHeight -= 2 * kCaptionsMm;
-  return page;
+  return both;
 }
 
 constexpr double kMostPageMm = 5080;  ///< 200 inches, the limit of PDF viewers
 constexpr double kInchMm = 25.4;
 constexpr double kBleedMm = 4;  ///< drawn beyond a tile's frame, so that a bad cut leaves no gap
 constexpr double kGrey = 0.55;
-const LineStyle kFrame{0.2, {}};
-const LineStyle kSquare{0.35, {}};
+const Pen kFrame{0.2, {}};
+const Pen kSquare{0.35, {}};
 
 Points2 rectangle(const Vector2d& corner, double width, double height) {
   return {corner, corner + Vector2d(width, 0), corner + Vector2d(width, height),
@@ -69,19 +62,23 @@ Points2 rectangle(const Vector2d& corner, double width, double height) {
 
 class Writer {
  public:
-  Writer(const Pattern& pattern, const PdfOptions& options)
-      : pattern_(pattern),
-        design_(*pattern.document.design),
-        options_(options),
+  Writer(const SheetDrawing& sheet, const PdfOptions& options)
+      : options_(options),
         page_(pageOf(options.paper)),
         corner_(0.5 * (page_.width - page_.tileWidth), 0.5 * (page_.height - page_.tileHeight)),
-        sheet_(drawSheet(pattern)) {}
+        sheet_(sheet) {
+    for (const PieceDrawing& piece : sheet.pieces) {
+      Points2 cut;
+      for (const SheetLine& line : piece.lines)
+        if (line.role == SheetRole::Cut)
+          cut.insert(cut.end(), line.points.begin(), line.points.end());
+      boxes_.push_back(boxOf(cut));
+    }
+  }
 
   Result<std::string> write() {
-    canvas_.setTitle(title());
-    if (const auto date = fileDate(design_))
-      canvas_.setDate(fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", date->year, date->month,
-                                  date->day, date->hour, date->minute, date->second));
+    canvas_.setTitle(sheet_.heading);
+    if (!sheet_.date.empty()) canvas_.setDate(sheet_.date);
     if (options_.paper != PdfPaper::OneSheet) {
       writeTiles();
     } else if (auto whole = writeWholeSheet(); !whole) {
@@ -93,21 +90,15 @@ class Writer {
   }
 
  private:
-  [[nodiscard]] std::string title() const {
-    const std::string style = design_.order.style.empty() ? design_.name : design_.order.style;
-    std::string text = style.empty() ? "Pattern" : style;
-    if (!design_.order.size.empty()) text += ", size " + design_.order.size;
-    if (!design_.order.customer.empty()) text += ", for " + design_.order.customer;
-    if (!design_.order.date.empty()) text += ", " + design_.order.date;
-    return text;
+  void drawPieces() {
+    drawPiece(sheet_.around);
+    for (const PieceDrawing& piece : sheet_.pieces) drawPiece(piece);
   }
 
-  void drawPieces() {
-    for (const PieceDrawing& piece : sheet_.pieces) {
-      for (const SheetLine& line : piece.lines)
-        if (line.style.width > 0) canvas_.line(line.points, line.closed, line.style);
-      for (const SheetText& text : piece.texts) canvas_.text(text);
-    }
+  void drawPiece(const PieceDrawing& piece) {
+    for (const SheetLine& line : piece.lines)
+      if (line.pen.width > 0) canvas_.line(line.points, line.closed, line.pen);
+    for (const SheetText& text : piece.texts) canvas_.text(text);
   }
 
   /// A square to measure, with its size along two sides.
@@ -134,7 +125,7 @@ class Writer {
   void drawLegend(Vector2d at) {
     struct Entry {
       SheetRole role;
-      LineStyle style;
+      Pen pen;
       const char* text;
     };
     const Entry entries[] = {
@@ -145,11 +136,11 @@ class Writer {
         {SheetRole::Grain, {0.35, {}}, "grain, arrows at both ends"},
     };
     for (const Entry& entry : entries) {
-      canvas_.line({at, at + Vector2d(22, 0)}, false, entry.style);
+      canvas_.line({at, at + Vector2d(22, 0)}, false, entry.pen);
       if (entry.role == SheetRole::Grain) {
-        canvas_.line({at + Vector2d(4, 1.4), at, at + Vector2d(4, -1.4)}, false, entry.style);
+        canvas_.line({at + Vector2d(4, 1.4), at, at + Vector2d(4, -1.4)}, false, entry.pen);
         canvas_.line({at + Vector2d(18, 1.4), at + Vector2d(22, 0), at + Vector2d(18, -1.4)}, false,
-                     entry.style);
+                     entry.pen);
       }
       canvas_.textFromLeft(at + Vector2d(25, -1.2), 3.4, entry.text);
       at.y() -= 7;
@@ -198,10 +189,10 @@ class Writer {
 
   void drawPieceList(Vector2d at, double width, double lowest) {
     constexpr double kFeedMm = 4.6;
-    const std::size_t count = pattern_.pieces.size();
+    const std::size_t count = sheet_.pieces.size();
     const double feed =
         std::min(kFeedMm, (at.y() - lowest) / static_cast<double>(std::max<std::size_t>(count, 1)));
-    for (const PatternPiece& piece : pattern_.pieces) {
+    for (const PieceDrawing& piece : sheet_.pieces) {
       canvas_.textFromLeft(at, 0.74 * feed,
                            fmt::format("{}  {}, cut {}", piece.number, piece.name, piece.count),
                            false, width);
@@ -213,7 +204,7 @@ class Writer {
     canvas_.beginPage(page_.width, page_.height);
     canvas_.setShift(corner_);
     const double top = page_.tileHeight;
-    canvas_.textFromLeft({0, top - 6}, 7, title(), true, page_.tileWidth);
+    canvas_.textFromLeft({0, top - 6}, 7, sheet_.heading, true, page_.tileWidth);
     canvas_.textFromLeft(
         {0, top - 14}, 4.2,
         fmt::format("Print at 100 % (\"actual size\"), not \"fit to page\", on {}; "
@@ -270,7 +261,7 @@ class Writer {
     const Vector2d joint = tile.box.max - Vector2d(1, 1) * plan.size.overlap;
     const Vector2d middle = 0.5 * (tile.box.min + joint);
     if (plan.size.overlap > 0) {
-      const LineStyle glue{0.2, {4, 2}};
+      const Pen glue{0.2, {4, 2}};
       if (plan.find(tile.row, tile.column + 1) != nullptr)
         canvas_.line({{joint.x(), tile.box.min.y()}, {joint.x(), tile.box.max.y()}}, false, glue,
                      kGrey);
@@ -288,22 +279,64 @@ class Writer {
     mark({middle.x(), tile.box.min.y()}, {0, 1}, tile.row + 1, tile.column);
     canvas_.endClip();
     canvas_.line(rectangle(tile.box.min, page_.tileWidth, page_.tileHeight), true, kFrame);
-    // In the margin above the frame: name, arrow up, page, whose pattern it is.
-    canvas_.setShift(corner + Vector2d(0, page_.tileHeight));
-    canvas_.textFromLeft({0, 6.5}, 6, tile.name(), true);
-    canvas_.line({{19, 6}, {19, 13}}, false, kSquare);
-    canvas_.line({{17.5, 10.5}, {19, 13}, {20.5, 10.5}}, false, kSquare);
-    canvas_.textFromLeft({26, 6.5}, 3.6,
-                         fmt::format("page {} of {}   {}", tile.page, pages, title()), false,
-                         page_.tileWidth - 26);
-    canvas_.setShift(corner);
-    canvas_.textFromLeft({0, -9}, 3.6, piecesOn(tile), false, page_.tileWidth);
+    drawCaption(tile, pages);
+  }
+
+  /// In the corner of the tile where it meets fewest lines, so that it stays when the tile is
+  /// trimmed: name, arrow up, page, whose pattern it is, pieces.
+  void drawCaption(const Tile& tile, int pages) {
+    constexpr double kInsetMm = 4;
+    const Vector2d size(84, 15);
+    Box2 best;
+    std::size_t fewest = std::numeric_limits<std::size_t>::max();
+    for (const auto& [right, up] : {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}}) {
+      const Vector2d room = tile.box.size() - size - Vector2d(2, 2) * kInsetMm;
+      const Vector2d low =
+          tile.box.min + Vector2d(kInsetMm + right * room.x(), kInsetMm + up * room.y());
+      const Box2 box{low, low + size};
+      const std::size_t count = linesIn(box);
+      if (count >= fewest) continue;
+      fewest = count;
+      best = box;
+    }
+    canvas_.setShift(corner_ - tile.box.min + best.min);
+    canvas_.textFromLeft({0, 8}, 7, tile.name(), true);
+    canvas_.line({{22, 8}, {22, 14}}, false, kSquare);
+    canvas_.line({{20.5, 11.5}, {22, 14}, {23.5, 11.5}}, false, kSquare);
+    canvas_.textFromLeft({27, 8}, 3.2, fmt::format("page {} of {}", tile.page, pages), false,
+                         size.x() - 27);
+    canvas_.textFromLeft({0, 3.6}, 2.8, sheet_.heading, false, size.x());
+    canvas_.textFromLeft({0, 0}, 2.8, piecesOn(tile), false, size.x());
+  }
+
+  static bool meets(const Box2& a, const Box2& b) {
+    return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
+  }
+
+  /// Stretches of lines, and texts, that a box meets.
+  [[nodiscard]] std::size_t linesIn(const Box2& box) const {
+    std::size_t count = 0;
+    for (std::size_t i = 0; i < sheet_.pieces.size(); ++i) {
+      if (!meets(boxes_[i], box)) continue;
+      const PieceDrawing& piece = sheet_.pieces[i];
+      for (const SheetLine& line : piece.lines)
+        for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.points.size(); ++k)
+          if (crosses(box, line.points[k], line.points[(k + 1) % line.points.size()])) ++count;
+      for (const SheetText& text : piece.texts) {
+        const Vector2d half = 0.5 * estimatedWidth(text.text, text.size) *
+                              Vector2d(std::cos(text.angle), std::sin(text.angle));
+        if (crosses(box, text.position - half, text.position + half)) ++count;
+      }
+    }
+    return count;
   }
 
   /// Names of the pieces that have a part on the tile.
   [[nodiscard]] std::string piecesOn(const Tile& tile) const {
     std::string names;
-    for (const PieceDrawing& piece : sheet_.pieces) {
+    for (std::size_t i = 0; i < sheet_.pieces.size(); ++i) {
+      if (!meets(boxes_[i], tile.box)) continue;
+      const PieceDrawing& piece = sheet_.pieces[i];
       const auto isHere = [&](const SheetLine& line) {
         if (line.role != SheetRole::Cut) return false;
         for (std::size_t k = 0; k < line.points.size(); ++k)
@@ -335,7 +368,7 @@ class Writer {
     constexpr double kAroundMm = 15;
     constexpr double kFootMm = 118;
     constexpr double kFourInches = 4 * kInchMm;
-    const Vector2d size = sheet_.box.size();
+    const Vector2d size = sheet_.max - sheet_.min;
     const double width = std::max(size.x() + 2 * kAroundMm, 2 * kAroundMm + kFourInches + 230);
     const double height = size.y() + 2 * kAroundMm + kFootMm;
     if (std::max(width, height) > kMostPageMm)
@@ -346,22 +379,21 @@ class Writer {
                       width, height, kMostPageMm),
           {}};
     canvas_.beginPage(width, height);
-    canvas_.setShift(Vector2d(kAroundMm, kAroundMm + kFootMm) - sheet_.box.min);
+    canvas_.setShift(Vector2d(kAroundMm, kAroundMm + kFootMm) - sheet_.min);
     drawPieces();
     canvas_.setShift({kAroundMm, kAroundMm});
     drawSquare({0, 0}, 100, "100 mm");
     drawSquare({108, 0}, kFourInches, "4 in");
-    canvas_.textFromLeft({220, 92}, 7, title(), true, width - 2 * kAroundMm - 220);
+    canvas_.textFromLeft({220, 92}, 7, sheet_.heading, true, width - 2 * kAroundMm - 220);
     drawLines({220, 82}, 4, 6.2,
               {"Plot at 100 %; measure both squares.",
-               "Outside of the material up, on the body as it lies here."},
+               sheet_.isMarker ? "A marker: the roll runs to the right."
+                               : "Outside of the material up, on the body as it lies here."},
               width - 2 * kAroundMm - 220);
     drawLegend({220, 60});
     return {};
   }
 
-  const Pattern& pattern_;
-  const Design& design_;
   PdfOptions options_;
   Page page_;
   Vector2d corner_;  ///< of the tile on its page
@@ -369,7 +401,8 @@ class Writer {
                                       "together so that the diamonds on the edges close.",
                                       "There is no overlap; lines run a little beyond the",
                                       "frame so that no gap is left."};
-  SheetDrawing sheet_;
+  const SheetDrawing& sheet_;
+  std::vector<Box2> boxes_;  ///< of the pieces
   PdfCanvas canvas_;
 };
 
@@ -390,12 +423,12 @@ Result<PdfPaper> parsePdfPaper(std::string_view text) {
                {}};
 }
 
-Result<std::string> writePdf(const Pattern& pattern, const PdfOptions& options) {
+Result<std::string> writePdf(const SheetDrawing& sheet, const PdfOptions& options) {
   if (!(options.overlap >= 0 && options.overlap <= 30))
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("an overlap of {} mm; give 0 to 30 mm", options.overlap),
                  {}};
-  return Writer(pattern, options).write();
+  return Writer(sheet, options).write();
 }
 
 }  // namespace toile

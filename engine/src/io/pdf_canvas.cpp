@@ -103,16 +103,16 @@ void PdfCanvas::endClip() {
   isClipped_ = false;
 }
 
-void PdfCanvas::line(const Points2& points, bool closed, const LineStyle& style, double grey) {
+void PdfCanvas::line(const Points2& points, bool closed, const Pen& pen, double grey) {
   if (points.size() < 2) return;
   cairo_t* cairo = state_->cairo.get();
   cairo_set_source_rgb(cairo, grey, grey, grey);
-  cairo_set_line_width(cairo, style.width * kPointsPerMm);
-  std::vector<double> dash = style.dash;
+  cairo_set_line_width(cairo, pen.width * kPointsPerMm);
+  std::vector<double> dash = pen.dash;
   for (double& d : dash) d *= kPointsPerMm;
   const Box2 box = boxOf(points);
   const auto touchesClip = [&](const Eigen::Vector2d& low, const Eigen::Vector2d& high) {
-    const double room = style.width;
+    const double room = pen.width;
     return ((high - clip_.min).array() >= -room).all() &&
            ((clip_.max - low).array() >= -room).all();
   };

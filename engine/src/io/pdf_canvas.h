@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "finish/polygon.h"
-#include "io/sheet_drawing.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
@@ -32,7 +32,7 @@ class PdfCanvas {
   void beginClip(const Box2& box);
   void endClip();
 
-  void line(const Points2& points, bool closed, const LineStyle& style, double grey = 0);
+  void line(const Points2& points, bool closed, const Pen& pen, double grey = 0);
   void text(const SheetText& text, double grey = 0);
   /// Left-aligned; @return the width in mm. A text wider than `most` is set smaller to fit it.
   double textFromLeft(const Eigen::Vector2d& baseline, double size, const std::string& utf8,

@@ -84,31 +84,32 @@ const Tile* TilePlan::find(int row, int column) const {
 }
 
 TilePlan planTiles(const SheetDrawing& sheet, int firstPage, const TileSize& tileSize) {
-  const Eigen::Vector2d size = sheet.box.size() + Eigen::Vector2d(2, 2) * kAroundMm;
+  const Eigen::Vector2d size = sheet.max - sheet.min + Eigen::Vector2d(2, 2) * kAroundMm;
   TilePlan plan;
   plan.size = tileSize;
   const Eigen::Vector2d step = plan.step();
-  plan.columns = std::max(1, static_cast<int>(std::ceil(size.x() / step.x())));
-  plan.rows = std::max(1, static_cast<int>(std::ceil(size.y() / step.y())));
-  const Eigen::Vector2d slack(plan.columns * step.x() - size.x(), plan.rows * step.y() - size.y());
-  // The grid may lie anywhere within the slack: of 6 x 6 places the one that saves most paper.
-  constexpr int kPlaces = 6;
-  const Eigen::Vector2d low = sheet.box.min - Eigen::Vector2d(1, 1) * kAroundMm;
+  // The grid may lie anywhere: of 12 x 12 places the one that saves most paper, and of those the
+  // first, since the others spread over more rows and columns.
+  constexpr int kPlaces = 12;
+  const Eigen::Vector2d low = sheet.min - Eigen::Vector2d(1, 1) * kAroundMm;
   std::vector<char> best;
-  Eigen::Vector2d bestOrigin = low;
+  TilePlan bestPlan = plan;
   std::ptrdiff_t fewest = 0;
   for (int i = 0; i < kPlaces; ++i) {
     for (int j = 0; j < kPlaces; ++j) {
-      plan.origin = low - Eigen::Vector2d(slack.x() * i, slack.y() * j) / (kPlaces - 1);
+      const Eigen::Vector2d shift(step.x() * i / kPlaces, step.y() * j / kPlaces);
+      plan.origin = low - shift;
+      plan.columns = std::max(1, static_cast<int>(std::ceil((size.x() + shift.x()) / step.x())));
+      plan.rows = std::max(1, static_cast<int>(std::ceil((size.y() + shift.y()) / step.y())));
       std::vector<char> used = usedTiles(sheet, plan);
       const std::ptrdiff_t count = std::count(used.begin(), used.end(), 1);
       if (!best.empty() && count >= fewest) continue;
       best = std::move(used);
-      bestOrigin = plan.origin;
+      bestPlan = plan;
       fewest = count;
     }
   }
-  plan.origin = bestOrigin;
+  plan = bestPlan;
   for (int r = 0; r < plan.rows; ++r)
     for (int c = 0; c < plan.columns; ++c)
       if (best[static_cast<std::size_t>(r * plan.columns + c)] != 0) {

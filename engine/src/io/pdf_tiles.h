@@ -4,11 +4,12 @@
 #include <string>
 #include <vector>
 
-#include "io/sheet_drawing.h"
+#include "finish/polygon.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
-/// A grid that prints on A4 and on Letter at 100 %, whichever way a viewer lays the page on the
+/// Of a grid that prints on A4 and on Letter at 100 %, whichever way a viewer lays the page on the
 /// paper: 10 mm from the sides of A4, 28.5 mm from its top and bottom.
 inline constexpr double kTileWidthMm = 190;
 inline constexpr double kTileHeightMm = 240;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "io/sheet_drawing.h"
+#include "toile/io/sheet_drawing.h"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,10 @@
 #include <set>
 #include <span>
 
+#include "finish/polygon.h"
+#include "io/file_date.h"
 #include "render/label_fit.h"
+#include "toile/core/parallel.h"
 #include "toile/sew/sewing.h"
 
 namespace toile {
@@ -20,13 +23,13 @@ namespace {
 using Eigen::Vector2d;
 using std::numbers::pi;
 
-const LineStyle kCutStyle{0.6, {}};
-const LineStyle kSewStyle{0.35, {5, 2.5}};
-const LineStyle kFeatureStyle{0.25, {8, 2, 1.5, 2}};
-const LineStyle kElasticStyle{0.25, {1.5, 1.5}};
-const LineStyle kMarkStyle{0.25, {}};
-const LineStyle kNotchStyle{0.5, {}};
-const LineStyle kGrainStyle{0.35, {}};
+const Pen kCutPen{0.6, {}};
+const Pen kSewPen{0.35, {5, 2.5}};
+const Pen kFeaturePen{0.25, {8, 2, 1.5, 2}};
+const Pen kElasticPen{0.25, {1.5, 1.5}};
+const Pen kMarkPen{0.25, {}};
+const Pen kNotchPen{0.5, {}};
+const Pen kGrainPen{0.35, {}};
 
 constexpr double kNameSizeMm = 6;
 constexpr double kLabelSizeMm = 4;
@@ -35,12 +38,12 @@ constexpr double kNotchSizeMm = 2.6;
 constexpr double kDoubleNotchMm = 8;
 constexpr double kLineFeed = 1.35;
 
-const LineStyle& styleOf(CurveKind kind) {
+const Pen& penOf(CurveKind kind) {
   switch (kind) {
     case CurveKind::Elastic:
-      return kElasticStyle;
+      return kElasticPen;
     case CurveKind::Mark:
-      return kMarkStyle;
+      return kMarkPen;
     case CurveKind::Guide:
     case CurveKind::Feature:
     case CurveKind::Seam:
@@ -48,7 +51,7 @@ const LineStyle& styleOf(CurveKind kind) {
     case CurveKind::Dart:
       break;
   }
-  return kFeatureStyle;
+  return kFeaturePen;
 }
 
 /// Text is never upside down: the angle of a direction or of its opposite.
@@ -76,12 +79,13 @@ Vector2d pointAt(const Points2& points, double along) {
 
 class PieceArtist {
  public:
-  PieceArtist(const Pattern& pattern, std::size_t index)
-      : pattern_(pattern),
-        piece_(pattern.pieces[index]),
-        placement_(pattern.layout.placements[index]) {
+  PieceArtist(const Pattern& pattern, const PatternPiece& piece, const Placement& placement)
+      : pattern_(pattern), piece_(piece), placement_(placement) {
     out_.id = piece_.id;
     out_.name = piece_.name;
+    out_.number = piece_.number;
+    out_.count = piece_.count;
+    out_.fabric = piece_.fabric;
     for (const Outline& loop : piece_.sewLines) sew_.push_back(placed(positions(loop)));
   }
 
@@ -90,7 +94,8 @@ class PieceArtist {
       SheetLine line;
       line.points = placed(positions(loop));
       line.closed = true;
-      line.style = kCutStyle;
+      line.pen = kCutPen;
+      line.isCut = true;
       out_.lines.push_back(std::move(line));
     }
     drawSewLines();
@@ -135,8 +140,8 @@ class PieceArtist {
       SheetLine line;
       line.role = SheetRole::Sew;
       line.points = pointsOf(run);
-      line.style = kSewStyle;
-      if (run.allowance <= 0) line.style.width = 0;  // it is the cut line, which is drawn
+      line.pen = kSewPen;
+      if (run.allowance <= 0) line.pen.width = 0;  // it is the cut line, which is drawn
       line.edge = edgeCodes(pattern_, piece_, run);
       line.curve = run.curve;
       line.kind = toString(run.kind);
@@ -154,7 +159,7 @@ class PieceArtist {
       line.role = SheetRole::Internal;
       line.points = placed(internal.points);
       line.closed = internal.closed;
-      line.style = styleOf(internal.kind);
+      line.pen = penOf(internal.kind);
       line.curve = internal.curve;
       line.kind = toString(internal.kind);
       // The name stands on the line near its left end, off the crossings in the middle.
@@ -190,9 +195,10 @@ class PieceArtist {
       const Vector2d at = placement_.apply(notch.position);
       const Vector2d inward = placement_.applyToDirection(notch.direction);
       line.points = notchShape(notch, at, inward);
-      line.style = kNotchStyle;
+      line.pen = kNotchPen;
       line.curve = notch.seam;
       line.kind = "notch";
+      line.isCut = notch.kind != NotchKind::T;
       line.seam = notch.number;
       out_.lines.push_back(std::move(line));
       // Of a double notch one has the number; the two sides of a dart have one each.
@@ -269,7 +275,7 @@ class PieceArtist {
       SheetLine line;
       line.role = SheetRole::Grain;
       line.points = std::move(points);
-      line.style = kGrainStyle;
+      line.pen = kGrainPen;
       line.kind = "grain";
       out_.lines.push_back(std::move(line));
     };
@@ -287,7 +293,7 @@ class PieceArtist {
       const Vector2d at = placement_.apply(hole);
       SheetLine line;
       line.role = SheetRole::Drill;
-      line.style = kMarkStyle;
+      line.pen = kMarkPen;
       line.kind = "drill";
       line.closed = true;
       constexpr int kSteps = 16;
@@ -318,7 +324,7 @@ class PieceArtist {
     const Vector2d to = b - 0.15 * length * along;
     SheetLine line;
     line.role = SheetRole::Grain;
-    line.style = kGrainStyle;
+    line.pen = kGrainPen;
     line.kind = "fold";
     line.points = {from, from + inset * inward, to + inset * inward, to};
     out_.lines.push_back(line);
@@ -511,6 +517,8 @@ const char* layerName(SheetRole role) {
       return "drill holes";
     case SheetRole::Text:
       return "text";
+    case SheetRole::Material:
+      return "material";
   }
   return "";
 }
@@ -523,16 +531,46 @@ double estimatedWidth(const std::string& utf8, double size) {
   return kMeanAdvance * size * static_cast<double>(characters);
 }
 
-SheetDrawing drawSheet(const Pattern& pattern) {
+PieceDrawing drawPiece(const Pattern& pattern, const PatternPiece& piece,
+                       const Placement& placement) {
+  return PieceArtist(pattern, piece, placement).draw();
+}
+
+SheetDrawing makeEmptySheet(const Design& design) {
   SheetDrawing sheet;
+  sheet.name = design.name;
+  sheet.heading = design.order.style.empty() ? design.name : design.order.style;
+  if (sheet.heading.empty()) sheet.heading = "Pattern";
+  if (!design.order.size.empty()) sheet.heading += ", size " + design.order.size;
+  if (!design.order.customer.empty()) sheet.heading += ", for " + design.order.customer;
+  if (!design.order.date.empty()) sheet.heading += ", " + design.order.date;
+  if (const auto date = fileDate(design))
+    sheet.date = fmt::format("{:04}-{:02}-{:02}T{:02}:{:02}:{:02}Z", date->year, date->month,
+                             date->day, date->hour, date->minute, date->second);
+  return sheet;
+}
+
+void fitBox(SheetDrawing& sheet) {
   Points2 all;
-  for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
-    sheet.pieces.push_back(PieceArtist(pattern, i).draw());
-    for (const SheetLine& line : sheet.pieces.back().lines)
-      if (line.role == SheetRole::Cut)
+  const auto take = [&](const PieceDrawing& drawing) {
+    for (const SheetLine& line : drawing.lines)
+      if (line.role == SheetRole::Cut || line.role == SheetRole::Material)
         all.insert(all.end(), line.points.begin(), line.points.end());
-  }
-  sheet.box = boxOf(all);
+  };
+  for (const PieceDrawing& piece : sheet.pieces) take(piece);
+  take(sheet.around);
+  const Box2 box = boxOf(all);
+  sheet.min = box.min;
+  sheet.max = box.max;
+}
+
+SheetDrawing drawSheet(const Pattern& pattern) {
+  SheetDrawing sheet = makeEmptySheet(*pattern.document.design);
+  sheet.pieces.resize(pattern.pieces.size());
+  parallelFor(pattern.pieces.size(), [&](std::size_t i) {
+    sheet.pieces[i] = drawPiece(pattern, pattern.pieces[i], pattern.layout.placements[i]);
+  });
+  fitBox(sheet);
   return sheet;
 }
 

@@ -12,7 +12,6 @@
 
 #include "finish/smoothing.h"
 #include "io/markup.h"
-#include "io/sheet_drawing.h"
 #include "render/strain_map.h"
 
 namespace toile {
@@ -34,25 +33,24 @@ std::string number(double mm) {
 
 class Writer {
  public:
-  /// @param strain shown beneath the lines; null for none
-  Writer(const Pattern& pattern, const StrainField* strain)
-      : pattern_(pattern),
-        strain_(strain),
-        sheet_(drawSheet(pattern)),
-        out_(std::back_inserter(text_)) {}
+  explicit Writer(const SheetDrawing& sheet) : sheet_(sheet), out_(std::back_inserter(text_)) {}
+  /// With the strain of the pieces beneath their lines.
+  Writer(const SheetDrawing& sheet, const Pattern& pattern, const StrainField& strain)
+      : sheet_(sheet), pattern_(&pattern), strain_(&strain), out_(std::back_inserter(text_)) {}
 
   std::string write() {
-    const Eigen::Vector2d size = sheet_.box.size() + Eigen::Vector2d(2, 2) * kMarginMm;
+    const Eigen::Vector2d size = sheet_.max - sheet_.min + Eigen::Vector2d(2, 2) * kMarginMm;
     fmt::format_to(out_,
                    "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
                    "<svg xmlns=\"http://www.w3.org/2000/svg\" "
                    "xmlns:inkscape=\"http://www.inkscape.org/namespaces/inkscape\" "
                    "version=\"1.1\" width=\"{0}mm\" height=\"{1}mm\" viewBox=\"0 0 {0} {1}\">\n"
                    "<title>{2}</title>\n",
-                   number(size.x()), number(size.y()), escaped(pattern_.document.design->name));
+                   number(size.x()), number(size.y()), escaped(sheet_.name));
+    writeAround();
     for (std::size_t i = 0; i < sheet_.pieces.size(); ++i) {
       if (strain_ != nullptr) writeStrain(i);
-      writePiece(sheet_.pieces[i], pattern_.pieces[i]);
+      writePiece(sheet_.pieces[i]);
     }
     if (strain_ != nullptr) text_ += strainLegendSvg(*strain_);
     text_ += "</svg>\n";
@@ -62,18 +60,18 @@ class Writer {
  private:
   /// The sheet's y is up, the file's is down: the one place where it turns.
   [[nodiscard]] Eigen::Vector2d toFile(const Eigen::Vector2d& p) const {
-    return {p.x() - sheet_.box.min.x() + kMarginMm, sheet_.box.max.y() - p.y() + kMarginMm};
+    return {p.x() - sheet_.min.x() + kMarginMm, sheet_.max.y() - p.y() + kMarginMm};
   }
 
   void writeStrain(std::size_t index) {
-    const std::size_t source = pattern_.pieceIndex[index];
+    const std::size_t source = pattern_->pieceIndex[index];
     fmt::format_to(out_,
                    "<g inkscape:groupmode=\"layer\" inkscape:label=\"{} strain\" "
                    "stroke-width=\"0.3\" stroke-linejoin=\"round\">\n",
-                   escaped(pattern_.pieces[index].name));
-    const Placement& placement = pattern_.layout.placements[index];
+                   escaped(sheet_.pieces[index].name));
+    const Placement& placement = pattern_->layout.placements[index];
     for (const StrainShade& shade :
-         strainShades(*strain_, pattern_, source,
+         strainShades(*strain_, *pattern_, source,
                       [&](const Eigen::Vector2d& p) { return toFile(placement.apply(p)); })) {
       fmt::format_to(out_, "<path fill=\"{0}\" stroke=\"{0}\" d=\"{1}\"/>\n", toHex(shade.colour),
                      shade.path);
@@ -81,37 +79,52 @@ class Writer {
     text_ += "</g>\n";
   }
 
-  void writePiece(const PieceDrawing& drawing, const PatternPiece& piece) {
+  void writePiece(const PieceDrawing& drawing) {
     fmt::format_to(out_,
                    "<g id=\"piece-{0}\" inkscape:groupmode=\"layer\" inkscape:label=\"{1}\" "
                    "data-piece=\"{0}\" data-number=\"{2}\" data-count=\"{3}\" data-fabric=\"{4}\" "
                    "fill=\"none\" stroke=\"black\" stroke-linejoin=\"round\">\n",
-                   escaped(drawing.id), escaped(drawing.name), piece.number, piece.count,
-                   escaped(piece.fabric));
+                   escaped(drawing.id), escaped(drawing.name), drawing.number, drawing.count,
+                   escaped(drawing.fabric));
     for (const SheetRole role :
          {SheetRole::Cut, SheetRole::Sew, SheetRole::Internal, SheetRole::Notch, SheetRole::Drill,
           SheetRole::Grain, SheetRole::Text}) {
       fmt::format_to(out_, "<g inkscape:groupmode=\"layer\" inkscape:label=\"{} {}\">\n",
                      escaped(drawing.name), layerName(role));
-      for (const SheetLine& line : drawing.lines)
-        if (line.role == role) writeLine(line);
-      for (const SheetText& text : drawing.texts)
-        if (text.role == role) writeText(text);
+      writeRole(drawing, role);
       text_ += "</g>\n";
     }
     text_ += "</g>\n";
   }
 
+  void writeRole(const PieceDrawing& drawing, SheetRole role) {
+    for (const SheetLine& line : drawing.lines)
+      if (line.role == role) writeLine(line);
+    for (const SheetText& text : drawing.texts)
+      if (text.role == role) writeText(text);
+  }
+
+  /// A marker's material.
+  void writeAround() {
+    if (sheet_.around.lines.empty() && sheet_.around.texts.empty()) return;
+    fmt::format_to(out_,
+                   "<g inkscape:groupmode=\"layer\" inkscape:label=\"{}\" fill=\"none\" "
+                   "stroke=\"black\">\n",
+                   layerName(SheetRole::Material));
+    writeRole(sheet_.around, SheetRole::Material);
+    text_ += "</g>\n";
+  }
+
   void writeLine(const SheetLine& line) {
-    if (line.style.width > 0) {
-      fmt::format_to(out_, "<path stroke-width=\"{}\"", number(line.style.width));
+    if (line.pen.width > 0) {
+      fmt::format_to(out_, "<path stroke-width=\"{}\"", number(line.pen.width));
     } else {
       text_ += "<path stroke=\"none\"";
     }
-    if (!line.style.dash.empty()) {
+    if (!line.pen.dash.empty()) {
       text_ += " stroke-dasharray=\"";
-      for (std::size_t i = 0; i < line.style.dash.size(); ++i)
-        fmt::format_to(out_, "{}{}", i == 0 ? "" : " ", number(line.style.dash[i]));
+      for (std::size_t i = 0; i < line.pen.dash.size(); ++i)
+        fmt::format_to(out_, "{}{}", i == 0 ? "" : " ", number(line.pen.dash[i]));
       text_ += '"';
     }
     if (!line.kind.empty()) fmt::format_to(out_, " data-kind=\"{}\"", escaped(line.kind));
@@ -186,22 +199,22 @@ class Writer {
                    number(text.size), text.bold ? " font-weight=\"bold\"" : "", escaped(text.text));
   }
 
-  const Pattern& pattern_;
-  const StrainField* strain_;
-  SheetDrawing sheet_;
+  const SheetDrawing& sheet_;
+  const Pattern* pattern_ = nullptr;
+  const StrainField* strain_ = nullptr;
   std::string text_;
   std::back_insert_iterator<std::string> out_;
 };
 
 }  // namespace
 
-std::string writeSvg(const Pattern& pattern) {
-  return Writer(pattern, nullptr).write();
+std::string writeSvg(const SheetDrawing& sheet) {
+  return Writer(sheet).write();
 }
 
 std::string writeStrainSvg(const Pattern& pattern) {
   const StrainField strain(pattern, StrainMap::Area);
-  return Writer(pattern, &strain).write();
+  return Writer(drawSheet(pattern), pattern, strain).write();
 }
 
 }  // namespace toile

@@ -36,24 +36,27 @@ Pattern asCut(const Pattern& pattern) {
 }
 
 std::vector<Product> productsOf(const Pattern& pattern, const Pattern& cutting,
+                                const SheetDrawing& sheet,
                                 const std::vector<std::optional<PieceStrain>>& strains,
                                 const WriteOptions& options, Progress* progress) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
        [&, progress] { return renderPattern(pattern, {}, progress); }},
-      {"pattern.pdf", "the pieces at 1:1, to print",
-       [&] { return writePdf(cutting, options.pdf); }},
+      {"pattern.pdf", "the pieces at 1:1, to print", [&] { return writePdf(sheet, options.pdf); }},
       {"report.html", "every piece, every seam length, findings, for the browser",
        [&] { return Result<std::string>(writeReportHtml(pattern)); }},
       {"report.json", "the same report for programs",
        [&] { return Result<std::string>(writeReportJson(pattern)); }},
       {"pattern.svg", "the pieces as vector drawing",
-       [&] { return Result<std::string>(writeSvg(cutting)); }},
+       [&] { return Result<std::string>(writeSvg(sheet)); }},
       {"strain.svg", "the same drawing over colours of how much the cloth must give",
        [&] { return Result<std::string>(writeStrainSvg(pattern)); }},
       {"laser.dxf", "plain lines for a laser: cut red, mark blue, engrave green",
-       [&] { return Result<std::string>(writeLaserDxf(pattern)); }},
-      {"pattern.plt", "HPGL for plotters", [&] { return writeHpgl(cutting, options.hpgl); }},
+       [&] {
+         const bool isWhole = !pattern.document.design->finish.halfOnFold;
+         return Result<std::string>(writeLaserDxf(isWhole ? sheet : drawSheet(pattern)));
+       }},
+      {"pattern.plt", "HPGL for plotters", [&] { return writeHpgl(sheet, options.hpgl); }},
       {"seams.json", "which edge is sewn to which, for programs",
        [&] { return Result<std::string>(writeSeamsJson(cutting)); }},
       {"lengths.csv", "the length contract: every line on the body, the pattern, its mate",
@@ -88,7 +91,9 @@ Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesyste
   told.findings.insert(told.findings.end(), dxf.findings.begin(), dxf.findings.end());
 
   const std::vector<std::optional<PieceStrain>> strains = measureStrains(told);
-  const std::vector<Product> products = productsOf(told, cutting, strains, options, progress);
+  const SheetDrawing sheet = drawSheet(cutting);
+  const std::vector<Product> products =
+      productsOf(told, cutting, sheet, strains, options, progress);
   std::vector<Result<std::string>> contents(products.size(), std::string());
   parallelFor(products.size(), [&](std::size_t i) { contents[i] = products[i].make(); });
   if (isCancelled(progress)) {

@@ -180,7 +180,7 @@ Result<std::string> render(const std::string& title, const Pattern* pattern,
   }
   const Arrangement parts = divide(options, wish);
   Picture picture(options.width, options.height);
-  if (wish.sheet) drawSheet(picture, parts.sheet, *pattern, options, wish.scale);
+  if (wish.sheet) paintSheet(picture, parts.sheet, *pattern, options, wish.scale);
   if (renderer) {
     renderer->setScale({parts.mmPerPixel, lineUnit(options, wish, parts.mmPerPixel)});
   }

@@ -373,8 +373,8 @@ void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& fra
 
 }  // namespace
 
-void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
-               const RenderOptions& options, double scale) {
+void paintSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
+                const RenderOptions& options, double scale) {
   const Cairo cairo = drawOn(picture);
   cairo_rectangle(cairo.get(), box.x, box.y, box.width, box.height);
   cairo_clip_preserve(cairo.get());

@@ -10,8 +10,8 @@ namespace toile {
 
 /// Draws the placed pattern pieces, as large as fits, with a scale bar. Fills the box.
 /// @param scale px of this picture per px of the line styles
-void drawSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
-               const RenderOptions& options, double scale);
+void paintSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
+                const RenderOptions& options, double scale);
 
 struct Caption {
   std::string text;

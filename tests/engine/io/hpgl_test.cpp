@@ -15,7 +15,7 @@ namespace {
 
 TEST(Hpgl, HoldsOnlyTheSafeCommands) {
   const Pattern pattern = test::makeTwoPiecePattern();
-  const Result<std::string> plot = writeHpgl(pattern, {.version2 = false});
+  const Result<std::string> plot = writeHpgl(drawSheet(pattern), {.version2 = false});
   ASSERT_TRUE(plot) << plot.error();
   std::istringstream lines(*plot);
   std::string last;
@@ -39,7 +39,7 @@ TEST(Hpgl, CutsTheOutlineOfAPieceLast) {
   pattern.pieces.resize(1);
   pattern.layout.placements.resize(1);
   pattern.pieces[0].cutLines.push_back(hole);
-  const std::string plot = *writeHpgl(pattern);
+  const std::string plot = *writeHpgl(drawSheet(pattern));
   const std::size_t outline = plot.rfind("PU", plot.rfind("PD"));
   const std::size_t before = plot.rfind("PD", outline - 1);
   // The one before the outline is the hole: 30 mm are 1200 units.
@@ -50,11 +50,13 @@ TEST(Hpgl, CutsTheOutlineOfAPieceLast) {
 
 TEST(Hpgl, RefusesWhatThePlotterCannotHold) {
   Pattern pattern = test::makeTwoPiecePattern();
-  EXPECT_EQ(writeHpgl(pattern, {.cutPen = 9}).error().code, ErrorCode::InvalidArgument);
-  EXPECT_EQ(writeHpgl(pattern, {.overcut = -1}).error().code, ErrorCode::InvalidArgument);
-  pattern.layout.max.x() += 800;
-  EXPECT_TRUE(writeHpgl(pattern));
-  EXPECT_EQ(writeHpgl(pattern, {.version2 = false}).error().code, ErrorCode::Unsupported);
+  EXPECT_EQ(writeHpgl(drawSheet(pattern), {.cutPen = 9}).error().code, ErrorCode::InvalidArgument);
+  EXPECT_EQ(writeHpgl(drawSheet(pattern), {.overcut = -1}).error().code,
+            ErrorCode::InvalidArgument);
+  pattern.layout.placements[1].offset.x() += 800;
+  EXPECT_TRUE(writeHpgl(drawSheet(pattern)));
+  EXPECT_EQ(writeHpgl(drawSheet(pattern), {.version2 = false}).error().code,
+            ErrorCode::Unsupported);
 }
 
 TEST(StrokeFont, DrawsEveryLetterWithinItsBox) {

@@ -57,7 +57,7 @@ TEST_P(Names, DxfHasTwoBlocksOfPlainNames) {
 TEST_P(Names, XmlJsonAndTablesStayWellFormed) {
   const Pattern named = pattern();
   test::TemporaryFolder folder;
-  test::writeText(folder.path() / "pattern.svg", writeSvg(named));
+  test::writeText(folder.path() / "pattern.svg", writeSvg(drawSheet(named)));
   const test::ProgramResult parsed = test::runProgram(
       {"/usr/bin/python3", "-c", "import sys, xml.etree.ElementTree as E; E.parse(sys.argv[1])",
        (folder.path() / "pattern.svg").string()});
@@ -75,9 +75,9 @@ TEST_P(Names, XmlJsonAndTablesStayWellFormed) {
   EXPECT_EQ(rows.out, "{12}\n") << rows.err;
   const std::string page = writeSewingHtml(named, "");
   EXPECT_EQ(page.find("<script"), std::string::npos);
-  EXPECT_TRUE(writePdf(named));
+  EXPECT_TRUE(writePdf(drawSheet(named)));
   EXPECT_TRUE(writeSewingPdf(named, ""));
-  const Result<std::string> plot = writeHpgl(named);
+  const Result<std::string> plot = writeHpgl(drawSheet(named));
   ASSERT_TRUE(plot);
   for (const char c : *plot) ASSERT_TRUE(c == '\n' || (c >= 0x20 && c < 0x7f));
 }

@@ -22,7 +22,7 @@ constexpr double kDotsPerMm = 10;  // pdftoppm -r 254
 
 struct SavedPdf {
   explicit SavedPdf(const Pattern& pattern, const PdfOptions& options = {}) {
-    const Result<std::string> pdf = writePdf(pattern, options);
+    const Result<std::string> pdf = writePdf(drawSheet(pattern), options);
     EXPECT_TRUE(pdf) << pdf.error();
     if (pdf) bytes = *pdf;
     path = folder.path() / "pattern.pdf";
@@ -198,7 +198,7 @@ TEST(Pdf, WholeSheetIsOnePage) {
 TEST(Pdf, RefusesAPageBeyondWhatViewersHold) {
   Pattern pattern = test::makeTwoPiecePattern();
   pattern.layout.placements[1].offset.x() += 6000;
-  const Result<std::string> pdf = writePdf(pattern, {.paper = PdfPaper::OneSheet});
+  const Result<std::string> pdf = writePdf(drawSheet(pattern), {.paper = PdfPaper::OneSheet});
   ASSERT_FALSE(pdf);
   EXPECT_EQ(pdf.error().code, ErrorCode::Unsupported);
 }
@@ -226,11 +226,13 @@ TEST(PdfTiles, ThatHoldNothingAreLeftOut) {
     SheetLine line;
     line.points = std::move(points);
     line.closed = true;
-    sheet.pieces.push_back({"p", "p", {line}, {}});
+    PieceDrawing piece;
+    piece.lines.push_back(std::move(line));
+    sheet.pieces.push_back(std::move(piece));
   };
   add({{0, 0}, {700, 0}, {700, 900}, {0, 900}});
   add({{1000, 1200}, {1100, 1200}, {1100, 1300}, {1000, 1300}});
-  sheet.box = {{0, 0}, {1100, 1300}};
+  sheet.max = {1100, 1300};
   const TilePlan plan = planTiles(sheet, 2);
   EXPECT_EQ(plan.columns, 6);
   EXPECT_EQ(plan.rows, 6);

@@ -32,7 +32,7 @@ Points2 pathAfter(const std::string& svg, const std::string& key) {
 
 TEST(Svg, DrawsThePiecesRightSideUpInMillimetres) {
   const Pattern pattern = test::makeTwoPiecePattern();
-  const std::string svg = writeSvg(pattern);
+  const std::string svg = writeSvg(drawSheet(pattern));
   constexpr double kMargin = 10;
   for (std::size_t i = 0; i < 2; ++i) {
     const Points2 path = pathAfter(svg, "id=\"piece-" + pattern.pieces[i].id + "\"");
@@ -55,7 +55,7 @@ TEST(Svg, DrawsThePiecesRightSideUpInMillimetres) {
 }
 
 TEST(Svg, HasALayerForEachRoleAndTheIdsOfSeams) {
-  const std::string svg = writeSvg(test::makeTwoPiecePattern());
+  const std::string svg = writeSvg(drawSheet(test::makeTwoPiecePattern()));
   for (const char* layer : {"ell cut line", "ell sew line", "ell inner lines", "ell notches",
                             "ell grain line", "ell text", "panel cut line"})
     EXPECT_EQ(count(svg, std::string("inkscape:label=\"") + layer + '"'), 1u) << layer;
@@ -68,13 +68,14 @@ TEST(Svg, HasALayerForEachRoleAndTheIdsOfSeams) {
 TEST(Svg, KeepsNamesInUtf8AndEscapesThem) {
   Pattern pattern = test::makeTwoPiecePattern();
   pattern.pieces[0].name = "Ärmel <links> & \"oben\"";
-  const std::string svg = writeSvg(pattern);
+  const std::string svg = writeSvg(drawSheet(pattern));
   EXPECT_NE(svg.find("inkscape:label=\"Ärmel &lt;links&gt; &amp; &quot;oben&quot;\""),
             std::string::npos);
 }
 
 TEST(Svg, IsTheSameEveryTime) {
-  EXPECT_EQ(writeSvg(test::makeTwoPiecePattern()), writeSvg(test::makeTwoPiecePattern()));
+  EXPECT_EQ(writeSvg(drawSheet(test::makeTwoPiecePattern())),
+            writeSvg(drawSheet(test::makeTwoPiecePattern())));
 }
 
 }  // namespace

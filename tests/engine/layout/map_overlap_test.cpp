@@ -72,7 +72,8 @@ void expectNoChartOnItself(const ReferenceModel& model, const std::string& name,
               [&](const Segment& a, const Segment& b) { return left(a) < left(b); });
     std::size_t crossings = 0;
     for (std::size_t i = 0; i < segments.size(); ++i)
-      for (std::size_t j = i + 1; j < segments.size() && left(segments[j]) < right(segments[i]); ++j)
+      for (std::size_t j = i + 1; j < segments.size() && left(segments[j]) < right(segments[i]);
+           ++j)
         if (crossProperly(segments[i], segments[j])) ++crossings;
     constexpr std::size_t kAtFingers = 4;
     EXPECT_LE(crossings, kAtFingers) << name << ", chart " << map->charts[chart].name;

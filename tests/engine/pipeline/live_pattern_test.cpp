@@ -19,7 +19,7 @@ namespace toile::test {
 namespace {
 
 std::string everything(const Pattern& pattern) {
-  std::string all = writeReportJson(pattern) + writeSvg(pattern);
+  std::string all = writeReportJson(pattern) + writeSvg(drawSheet(pattern));
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
     if (pattern.flats[i]) all += writePieceObj(pattern.cut.pieces[i], *pattern.flats[i]);
   }

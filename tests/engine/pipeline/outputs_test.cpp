@@ -173,7 +173,8 @@ TEST_F(WetsuitFiles, PrintOnEveryPaperAtTrueSize) {
                              Paper{"a3", "841.89  1190.55"}, Paper{"a0", "2383.94  3370.39"}}) {
     const Result<PdfPaper> chosen = parsePdfPaper(paper.name);
     ASSERT_TRUE(chosen);
-    const Result<std::string> pdf = writePdf(*pattern_, {.paper = *chosen, .overlap = 12});
+    const Result<std::string> pdf =
+        writePdf(drawSheet(*pattern_), {.paper = *chosen, .overlap = 12});
     ASSERT_TRUE(pdf) << pdf.error();
     const std::string file = path(paper.name + std::string(".pdf"));
     writeText(file, *pdf);
@@ -221,7 +222,7 @@ std::vector<double> outlinesThatPopplerReads(const std::string& svg) {
 
 TEST_F(WetsuitFiles, HaveTheLengthsThatPopplerReads) {
   ASSERT_TRUE(has("pdftocairo"));
-  const Result<std::string> pdf = writePdf(*pattern_, {.paper = PdfPaper::OneSheet});
+  const Result<std::string> pdf = writePdf(drawSheet(*pattern_), {.paper = PdfPaper::OneSheet});
   ASSERT_TRUE(pdf) << pdf.error();
   writeText(path("one.pdf"), *pdf);
   run({"pdftocairo", "-svg", path("one.pdf"), path("one.svg")});

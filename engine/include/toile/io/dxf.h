@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "toile/io/sheet_drawing.h"
 #include "toile/layout/pattern.h"
 
 namespace toile {
@@ -29,10 +30,10 @@ struct DxfOptions {
 /// y up, right side of the cloth up, outlines clockwise.
 DxfFile writeDxf(const Pattern& pattern, const DxfOptions& options = {});
 
-/// The pieces for a laser or knife: plain polylines without blocks, millimetres, on three layers in
-/// the order in which they are worked: ENGRAVE (green: labels as strokes), MARK (blue: sew lines,
-/// inner lines, notches, drill holes, grain), CUT (red: holes, then outlines).
-std::string writeLaserDxf(const Pattern& pattern);
+/// The pieces of a sheet for a laser or knife: plain polylines without blocks, millimetres, on
+/// three layers in the order in which they are worked: ENGRAVE (green: labels as strokes), MARK
+/// (blue: sew lines, inner lines, notches, drill holes, grain), CUT (red: holes, then outlines).
+std::string writeLaserDxf(const SheetDrawing& sheet);
 
 /// Names of the blocks that writeDxf() gives to the pieces, in their order.
 std::vector<std::string> dxfBlockNames(const Pattern& pattern);

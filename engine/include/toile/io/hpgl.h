@@ -3,7 +3,7 @@
 
 #include <string>
 
-#include "toile/layout/pattern.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
@@ -14,11 +14,11 @@ struct HpglOptions {
   double overcut = 0;                        ///< mm that a knife goes beyond the end of an outline
 };
 
-/// The layout for a plotter or knife: 40 units a millimetre, each position rounded by itself;
+/// The sheet for a plotter or knife: 40 units a millimetre, each position rounded by itself;
 /// IN SP PU PD only, texts as strokes, lines of at most 200 characters. X is the feed of the
-/// material: the longer side of the sheet runs along it.
+/// material: the longer side of the sheet, or the roll of a marker, runs along it.
 /// @return Unsupported for HP-GL/1 when the sheet is longer or wider than its 819 mm, or for what
 ///   no plotter holds (50 m); InvalidArgument for pens and overcuts out of range.
-Result<std::string> writeHpgl(const Pattern& pattern, const HpglOptions& options = {});
+Result<std::string> writeHpgl(const SheetDrawing& sheet, const HpglOptions& options = {});
 
 }  // namespace toile

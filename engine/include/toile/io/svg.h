@@ -3,16 +3,16 @@
 
 #include <string>
 
-#include "toile/layout/pattern.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 
-/// The layout 1:1 in mm (viewBox in mm), a group per piece with a layer per role, data-* attributes
+/// The sheet 1:1 in mm (viewBox in mm), a group per piece with a layer per role, data-* attributes
 /// with piece, curve and seam ids, no scaling transforms.
-std::string writeSvg(const Pattern& pattern);
+std::string writeSvg(const SheetDrawing& sheet);
 
-/// The same with a layer per piece beneath its lines that shows how much the area of the cloth must
-/// give, and a legend: to look at, not to cut from.
+/// The pattern with a layer per piece beneath its lines that shows how much the area of the cloth
+/// must give, and a legend: to look at, not to cut from.
 std::string writeStrainSvg(const Pattern& pattern);
 
 }  // namespace toile

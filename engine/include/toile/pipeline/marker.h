@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "toile/io/sheet_drawing.h"
 #include "toile/layout/nest.h"
 #include "toile/layout/pattern.h"
 
@@ -20,6 +21,9 @@ struct MarkerOptions {
   std::optional<Turns> turns;  ///< instead of what the fabric allows
   int copies = 1;              ///< of each order
   bool pairs = false;          ///< each piece also turned over: left and right shoe
+  /// The cloth lies double, its fold at y = 0: symmetric pieces are cut as halves on the fold, and
+  /// one outline gives both pieces of a mirrored pair. `width` is that of the cloth laid flat.
+  bool fold = false;
 };
 inline constexpr double kUsualRollMm = 1400;
 
@@ -27,11 +31,14 @@ inline constexpr double kUsualRollMm = 1400;
 struct Marker {
   std::string fabric;  ///< id; empty where designs have none
   std::string name;    ///< for people
-  double width = 0;    ///< mm
+  double width = 0;    ///< mm, of the cloth laid flat
+  bool folded = false;
   Nesting nesting;
-  /// Every copy as a pattern piece, sheets beside each other, for the writers. Pieces tell their
-  /// order where there are several.
-  Pattern sheet;
+  /// Every copy in its place, as nesting.places, sheets beside each other, on the edges and faults
+  /// of the material. Numbers and edge codes are those of the order's own pattern; pieces tell
+  /// their order where there are several.
+  SheetDrawing sheet;
+  std::vector<Finding> findings;  ///< pieces that folded cloth gives twice
 };
 
 /// Nests what several orders need, a marker per fabric; the fabric of each is that of its own
