@@ -67,18 +67,10 @@ BlockPattern::BlockPattern(std::size_t nodeCount,
     nodeRow_.insert(nodeRow_.end(), begin, std::unique(begin, end));
     nodeStart_[n + 1] = static_cast<int>(nodeRow_.size());
   }
-  row_.reserve(4 * nodeRow_.size() + 3 * nodeCount);
   for (std::size_t n = 0; n < nodeCount; ++n) {
-    const int x = static_cast<int>(2 * n);
-    for (int column = 0; column < 2; ++column) {
-      for (int k = nodeStart_[n]; k < nodeStart_[n + 1]; ++k) {
-        row_.push_back(2 * nodeRow_[static_cast<std::size_t>(k)]);
-        row_.push_back(2 * nodeRow_[static_cast<std::size_t>(k)] + 1);
-      }
-      row_.push_back(x);
-      if (column == 1) row_.push_back(x + 1);
-      columnStart_[2 * n + static_cast<std::size_t>(column) + 1] = static_cast<int>(row_.size());
-    }
+    const int above = 2 * (nodeStart_[n + 1] - nodeStart_[n]);
+    columnStart_[2 * n + 1] = columnStart_[2 * n] + above + 1;
+    columnStart_[2 * n + 2] = columnStart_[2 * n + 1] + above + 2;
   }
 }
 

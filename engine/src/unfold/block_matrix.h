@@ -37,9 +37,8 @@ class BlockPattern {
   /// Upper neighbours of the nodes: those of smaller index, ascending.
   [[nodiscard]] const std::vector<int>& nodeStart() const { return nodeStart_; }
   [[nodiscard]] const std::vector<int>& nodeRow() const { return nodeRow_; }
-  /// Columns and rows of the numbers, 2 per node.
+  /// Where the columns of numbers begin, 2 per node: those of the upper neighbours, then its own.
   [[nodiscard]] const std::vector<int>& columnStart() const { return columnStart_; }
-  [[nodiscard]] const std::vector<int>& row() const { return row_; }
 
   /// Where the first column of a block of two nodes lies, and the second; `transposed` if the
   /// caller's first node is the larger.
@@ -55,14 +54,14 @@ class BlockPattern {
 
  private:
   MirrorTies ties_;
-  std::vector<int> nodeStart_, nodeRow_, columnStart_, row_;
+  std::vector<int> nodeStart_, nodeRow_, columnStart_;
 };
 
 /// Numbers on a BlockPattern; symmetric.
 class BlockMatrix {
  public:
   explicit BlockMatrix(const BlockPattern& pattern)
-      : pattern_(&pattern), values_(pattern.row().size(), 0.0) {}
+      : pattern_(&pattern), values_(static_cast<std::size_t>(pattern.columnStart().back()), 0.0) {}
 
   [[nodiscard]] const BlockPattern& pattern() const { return *pattern_; }
   [[nodiscard]] const std::vector<double>& values() const { return values_; }

@@ -20,16 +20,23 @@ std::size_t belowOf(const Supernode& node) {
   return kPerNode * node.rows.size();
 }
 
-/// Adds the lower part of a child's update to the front of its parent.
+/// Numbers of an update: its lower part, column by column.
+template <std::size_t kPerNode>
+std::size_t updateSize(const Supernode& node) {
+  const std::size_t below = belowOf<kPerNode>(node);
+  return below * (below + 1) / 2;
+}
+
+/// Adds a child's update to the front of its parent.
 template <std::size_t kPerNode>
 void addUpdate(const Supernode& child, const double* update, std::size_t parentPivots,
                std::size_t parentRows, double* panel, double* front) {
   const std::size_t size = belowOf<kPerNode>(child);
   const std::size_t below = parentRows - parentPivots;
+  const double* in = update;  // the number of row r of a column lies at in[r]
   for (std::size_t c = 0; c < child.rowsInPanel.size(); ++c) {
     const std::size_t column = kPerNode * static_cast<std::size_t>(child.rowsInPanel[c]);
     for (std::size_t side = 0; side < kPerNode; ++side) {
-      const double* in = update + (kPerNode * c + side) * size;
       const std::size_t own = column + side;
       // Rows of the front count from its first pivot in the panel, from its first row in the
       // update.
@@ -40,6 +47,7 @@ void addUpdate(const Supernode& child, const double* update, std::size_t parentP
         const std::size_t row = kPerNode * static_cast<std::size_t>(child.rowsInPanel[r]);
         for (std::size_t k = 0; k < kPerNode; ++k) out[row + k] += in[kPerNode * r + k];
       }
+      in += size - (kPerNode * c + side) - 1;
     }
   }
 }
@@ -58,10 +66,11 @@ MultifrontalFactor<kPerNode>::MultifrontalFactor(const BlockPattern& pattern,
   for (std::size_t s = 0; s < nodes.size(); ++s) {
     const std::size_t pivots = pivotsOf<kPerNode>(nodes[s]), below = belowOf<kPerNode>(nodes[s]);
     panelStart_.push_back(panelStart_.back() + pivots * (pivots + below));
-    depth = depth - waiting[s] + below * below;
+    const std::size_t update = updateSize<kPerNode>(nodes[s]);
+    depth = depth - waiting[s] + update;
     deepest = std::max(deepest, depth + waiting[s]);
     largest = std::max({largest, below * below, pivots + below});
-    if (nodes[s].parent >= 0) waiting[static_cast<std::size_t>(nodes[s].parent)] += below * below;
+    if (nodes[s].parent >= 0) waiting[static_cast<std::size_t>(nodes[s].parent)] += update;
   }
   stackSize_ = deepest;
   front_.resize(largest);
@@ -157,7 +166,7 @@ bool MultifrontalFactor<kPerNode>::factor(const std::vector<double>& values) {
     }
     while (!waiting_.empty() && nodes[waiting_.back()].parent == static_cast<int>(s)) {
       const Supernode& child = nodes[waiting_.back()];
-      top -= belowOf<kPerNode>(child) * belowOf<kPerNode>(child);
+      top -= updateSize<kPerNode>(child);
       addUpdate<kPerNode>(child, top, pivots, rows, panel, front);
       waiting_.pop_back();
     }
@@ -165,9 +174,8 @@ bool MultifrontalFactor<kPerNode>::factor(const std::vector<double>& values) {
     if (below == 0) continue;
     subtractOuterProduct(panel, rows, pivots, front, packed_);
     for (std::size_t c = 0; c < below; ++c) {
-      std::copy_n(front + c * below + c, below - c, top + c * below + c);
+      top = std::copy_n(front + c * below + c, below - c, top);
     }
-    top += below * below;
     waiting_.push_back(s);
   }
   return true;

@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 
+#include "engine/unfold/dense_matrix.h"
 #include "support/meshes.h"
 #include "support/patches.h"
 #include "support/result_printing.h"
@@ -56,16 +57,7 @@ struct Sheet {
     BlockMatrix matrix(pattern);
     gradient = Eigen::VectorXd::Zero(q.size());
     cloth.addDerivatives(q, indefinite, gradient, matrix);
-    const auto n = q.size();
-    Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
-    for (Eigen::Index c = 0; c < n; ++c) {
-      for (int k = pattern.columnStart()[static_cast<std::size_t>(c)];
-           k < pattern.columnStart()[static_cast<std::size_t>(c) + 1]; ++k) {
-        const int r = pattern.row()[static_cast<std::size_t>(k)];
-        full(r, c) = full(c, r) = matrix.values()[static_cast<std::size_t>(k)];
-      }
-    }
-    return full;
+    return test::dense(matrix);
   }
 };
 

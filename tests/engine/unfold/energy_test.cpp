@@ -5,6 +5,7 @@
 #include <cmath>
 #include <random>
 
+#include "engine/unfold/dense_matrix.h"
 #include "support/meshes.h"
 #include "support/patches.h"
 #include "support/result_printing.h"
@@ -16,6 +17,8 @@
 
 namespace toile::unfolding {
 namespace {
+
+using test::dense;
 
 /// A small piece, a plane near it without flips, and the pattern.
 struct Fixture {
@@ -45,20 +48,6 @@ struct Fixture {
     return pairs;
   }
 };
-
-Eigen::MatrixXd dense(const BlockMatrix& matrix) {
-  const auto& start = matrix.pattern().columnStart();
-  const auto n = static_cast<Eigen::Index>(start.size() - 1);
-  Eigen::MatrixXd full = Eigen::MatrixXd::Zero(n, n);
-  for (Eigen::Index c = 0; c < n; ++c) {
-    for (int k = start[static_cast<std::size_t>(c)]; k < start[static_cast<std::size_t>(c) + 1];
-         ++k) {
-      const int r = matrix.pattern().row()[static_cast<std::size_t>(k)];
-      full(r, c) = full(c, r) = matrix.values()[static_cast<std::size_t>(k)];
-    }
-  }
-  return full;
-}
 
 Eigen::VectorXd gradientOf(const EnergyTerm& term, const Fixture& f, const Plane& q,
                            BlockMatrix& hessian) {

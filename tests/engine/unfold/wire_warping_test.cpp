@@ -4,9 +4,11 @@
 #include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <numbers>
+#include <random>
 #include <string>
 
 #include "support/generated_pieces.h"
@@ -133,6 +135,55 @@ TEST(WireWarping, EveryGeneratedPieceIsAtAMinimumOrCalledInfeasible) {
       EXPECT_LT(distanceFromOptimality(each.piece, *flat), 1e-6);
     }
   }
+}
+
+/// Two lines that wander over a grid of n by n cells, one from left to right, one from below up.
+std::vector<PolygonSoup::Chain> wanderingLines(int n, std::mt19937& random) {
+  std::vector<PolygonSoup::Chain> lines(2);
+  for (std::size_t k = 0; k < lines.size(); ++k) {
+    lines[k].group = "wire_feature_" + std::to_string(k);
+    int along = 0;
+    int across = 1 + static_cast<int>(random() % static_cast<unsigned>(n - 1));
+    const auto add = [&] {
+      const int column = k == 0 ? along : across, row = k == 0 ? across : along;
+      lines[k].vertices.push_back(static_cast<std::uint32_t>(row * (n + 1) + column));
+    };
+    add();
+    while (along < n) {
+      ++along;
+      add();
+      const int next = across + static_cast<int>(random() % 3) - 1;
+      if (along == n || next == across || next < 1 || next >= n) continue;
+      across = next;
+      add();
+    }
+  }
+  return lines;
+}
+
+// Random networks on random surfaces. TOILE_TRIALS sets how many.
+TEST(WireWarping, RandomNetworksAreAtAMinimum) {
+  const char* wanted = std::getenv("TOILE_TRIALS");
+  const int trials = wanted != nullptr ? std::atoi(wanted) : 12;
+  constexpr int kCells = 14;
+  std::mt19937 random(11);
+  int bent = 0;
+  for (int trial = 0; trial < trials; ++trial) {
+    SCOPED_TRACE(trial);
+    const double a = 0.02 + 0.03 * static_cast<double>(random() % 100) / 100;
+    const double b = static_cast<double>(random() % 100) / 30;
+    const Mesh mesh = test::heightField(kCells, kCells, 10, [&](double x, double y) {
+      return 12 * std::sin(a * x + b) * std::cos(0.03 * y - b);
+    });
+    const Piece piece = test::patchOf(mesh, wanderingLines(kCells, random));
+    const Result<FlatPiece> flat = unfold(piece, kPaper);
+    ASSERT_TRUE(flat) << flat.error();
+    EXPECT_LE(flat->check.maxLengthError, 1e-12);
+    if (flat->check.crossings > 0) continue;  // no cloth fits then, and the angles are not ours
+    ++bent;
+    EXPECT_LT(distanceFromOptimality(piece, *flat), 1e-6);
+  }
+  EXPECT_GT(bent, trials / 2);
 }
 
 // The same pieces with the default objective: nothing folds, nothing crosses unnoticed.
