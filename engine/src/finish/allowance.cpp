@@ -16,8 +16,10 @@ namespace {
 
 // Clipper computes in integers: 1e-5 mm a step leaves 10 m either way in its fast range.
 constexpr double kStepsPerMm = 1e5;
-constexpr double kArcErrorMm = 0.02;       ///< of the chords around convex turns
-constexpr double kSimplifyMm = 0.01;       ///< vertices of the union this close to a chord go
+constexpr double kArcErrorMm = 0.02;  ///< of the chords around convex turns
+constexpr double kSimplifyMm = 0.01;  ///< vertices of the union this close to a chord go
+/// Where parts of the union touch along a line, rounding leaves slits in it, closer than this.
+constexpr double kSlitMm = 0.002;
 constexpr double kSmallestPocketMm2 = 25;  ///< closed-in leftovers below this are filled
 
 using ClipperLib::IntPoint;
@@ -455,7 +457,8 @@ std::vector<Outline> makeCutLines(const SewOutline& sew, const std::vector<Corne
   }
 
   std::vector<Points2> loops;
-  for (const Path& path : united) {
+  for (Path& path : united) {
+    ClipperLib::CleanPolygon(path, kSlitMm * kStepsPerMm);
     Points2 points = toPoints(path);
     if (points.size() >= 3) loops.push_back(std::move(points));
   }
