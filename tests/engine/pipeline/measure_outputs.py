@@ -4,8 +4,9 @@
 
   measure_outputs.py FOLDER
 
-Prints as JSON by how much (mm) the lines of pattern.dxf (ezdxf), pattern.svg and pattern.plt differ
-from lengths.csv at most, and how many were compared.
+Prints as JSON by how much (mm) the lines of pattern.dxf (ezdxf), pattern.svg, pattern.plt and of
+one.svg, which poppler made of the pattern on one PDF page, differ from lengths.csv at most, and how
+many were compared.
 """
 import csv
 import json
@@ -153,6 +154,30 @@ def measure_hpgl(folder, contract):
         elif command.startswith("PD"):
             assert min(numbers) >= 0
             way += list(zip(numbers[::2], numbers[1::2]))
+    without_allowance = pieces_without_allowance(folder)
+    worst = 0
+    for piece, perimeter in piece_perimeters(contract).items():
+        if piece in without_allowance:
+            worst = max(worst, min(abs(length - perimeter) for length in lengths))
+    return worst, len(without_allowance), len(lengths)
+
+
+def measure_pdf(folder, contract):
+    """Closed lines of the cut line's width, in points."""
+    lengths = []
+    for path in ElementTree.parse(folder / "one.svg").iter(SVG + "path"):
+        style = path.get("style") or ""
+        width = path.get("stroke-width") or (re.findall(r"stroke-width:([0-9.]+)", style) + ["0"])[0]
+        way = path.get("d") or ""
+        if abs(float(width) - 0.6 * 72 / 25.4) < 0.01 and "Z" in way:
+            lengths.append(path_length(way[:way.index("Z") + 1]) * 25.4 / 72)
+    without_allowance = pieces_without_allowance(folder)
+    return max(min(abs(length - perimeter) for length in lengths)
+               for piece, perimeter in piece_perimeters(contract).items()
+               if piece in without_allowance)
+
+
+def pieces_without_allowance(folder):
     without_allowance = set()
     seams = json.loads((folder / "seams.json").read_text(encoding="utf-8"))
     svg = ElementTree.parse(folder / "pattern.svg")
@@ -163,11 +188,7 @@ def measure_hpgl(folder, contract):
         if piece and sewn and all(p.get("stroke") == "none" for p in sewn):
             without_allowance.add(piece)
     assert {p["id"] for p in seams["pieces"]} >= without_allowance
-    worst = 0
-    for piece, perimeter in piece_perimeters(contract).items():
-        if piece in without_allowance:
-            worst = max(worst, min(abs(length - perimeter) for length in lengths))
-    return worst, len(without_allowance), len(lengths)
+    return without_allowance
 
 
 def main(folder):
@@ -179,7 +200,7 @@ def main(folder):
             for line in contract if line["rule"] == "keep"]
     mates = [abs(float(line["difference"])) for line in contract if line["mate"]]
     json.dump({"dxf": dxf, "edges": edges, "svg": svg, "paths": paths, "hpgl": hpgl,
-               "outlines": outlines, "cuts": cuts, "lines": len(contract),
+               "pdf": measure_pdf(folder, contract), "outlines": outlines, "cuts": cuts, "lines": len(contract),
                "kept": max(kept), "mates": max(mates),
                "perimeters": piece_perimeters(contract)}, sys.stdout)
 

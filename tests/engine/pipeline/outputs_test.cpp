@@ -49,6 +49,10 @@ class WetsuitFiles : public testing::Test {
 };
 
 TEST_F(WetsuitFiles, HaveTheLengthsOfTheContract) {
+  const Result<std::string> page = writePdf(drawSheet(*pattern_), {.paper = PdfPaper::OneSheet});
+  ASSERT_TRUE(page) << page.error();
+  writeText(path("one.pdf"), *page);
+  run({"pdftocairo", "-svg", path("one.pdf"), path("one.svg")});
   const auto measured = nlohmann::json::parse(
       run({"/usr/bin/python3", TOILE_SOURCE_DIR "/tests/engine/pipeline/measure_outputs.py",
            folder_->path().string()}));
@@ -56,12 +60,13 @@ TEST_F(WetsuitFiles, HaveTheLengthsOfTheContract) {
   EXPECT_EQ(measured["edges"], measured["paths"]);
   EXPECT_LE(measured["dxf"].get<double>(), 0.02);
   EXPECT_LE(measured["svg"].get<double>(), 0.02);
+  EXPECT_LE(measured["pdf"].get<double>(), 0.02);
   EXPECT_LE(measured["hpgl"].get<double>(), 0.2);
   EXPECT_GE(measured["outlines"].get<int>(), 10);
   // The pattern keeps what it says to keep, and mates are alike.
   EXPECT_LE(measured["kept"].get<double>(), kSmoothingMm + 1e-4);
   EXPECT_LE(measured["mates"].get<double>(), kSmoothingMm + 1e-4);
-  for (const char* name : {"dxf", "svg", "hpgl", "kept", "mates"})
+  for (const char* name : {"dxf", "svg", "pdf", "hpgl", "kept", "mates"})
     RecordProperty(name, std::to_string(measured[name].get<double>()));
 }
 
