@@ -47,8 +47,8 @@ KeysDialog::KeysDialog(Actions& actions, QWidget* parent)
   list_->setRootIsDecorated(false);
   list_->header()->setSectionResizeMode(0, QHeaderView::Stretch);
   for (const QAction* action : actions.all()) {
-    auto* item = new QTreeWidgetItem(list_, {plain(action->text()), action->shortcut().toString(
-                                                                        QKeySequence::NativeText)});
+    auto* item = new QTreeWidgetItem(
+        list_, {plain(action->text()), action->shortcut().toString(QKeySequence::NativeText)});
     item->setData(0, kId, action->objectName());
     item->setIcon(0, action->icon());
   }
@@ -80,9 +80,10 @@ KeysDialog::KeysDialog(Actions& actions, QWidget* parent)
   connect(key_, &QKeySequenceEdit::keySequenceChanged, this, [this](const QKeySequence& key) {
     const QAction* other = actions_.withKey(key);
     const bool clashes = other != nullptr && other != current();
-    clash_->setText(clashes ? tr("“%1” has this key. It will have none when you take it.")
-                                  .arg(plain(other->text()))
-                            : QString());
+    clash_->setText(
+        clashes
+            ? tr("“%1” has this key. It will have none when you take it.").arg(plain(other->text()))
+            : QString());
   });
   connect(take_, &QPushButton::clicked, this, &KeysDialog::takeKey);
   connect(back_, &QPushButton::clicked, this, [this] {

@@ -43,9 +43,9 @@ void MainWindow::fillBodyMenu(QMenu& menu) {
     if (!file.isEmpty()) putOnFile(file.toStdString());
   });
   QMenu* sizes = menu.addMenu(tr("Add a &size"));
-  const bool isBody = session_.document().design->models.front().reference.starts_with(
-                          "builtin:body") ||
-                      models.back().reference.starts_with("builtin:body");
+  const bool isBody =
+      session_.document().design->models.front().reference.starts_with("builtin:body") ||
+      models.back().reference.starts_with("builtin:body");
   sizes->setEnabled(isBody);
   if (!isBody) sizes->setToolTip(tr("Sizes are of the built-in body"));
   for (const BodySize& size : standardSizes()) {
@@ -64,8 +64,8 @@ bool MainWindow::putOnFile(const std::filesystem::path& path) {
 bool MainWindow::putOn(const ModelReference& body) {
   const QString name = bodyName(body);
   const Document before = session_.document();
-  const Result<Document> after = longWork<Document>(
-      this, tr("The design is put on %1").arg(name), [&](Progress& progress) {
+  const Result<Document> after =
+      longWork<Document>(this, tr("The design is put on %1").arg(name), [&](Progress& progress) {
         return bodies_.putOn(before, body, session_.origin(), &progress);
       });
   if (!after) {

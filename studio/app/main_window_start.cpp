@@ -118,9 +118,9 @@ void MainWindow::openTemplate(const QString& resource, const QString& name) {
   const QTemporaryDir folder;
   const QString file = folder.filePath(QStringLiteral("template.toile"));
   QFile::copy(resource, file);
-  const Result<Document> document = longWork<Document>(
-      this, tr("%1 is being opened").arg(name),
-      [file](Progress&) { return openDocument(file.toStdString()); });
+  const Result<Document> document =
+      longWork<Document>(this, tr("%1 is being opened").arg(name),
+                         [file](Progress&) { return openDocument(file.toStdString()); });
   if (!document) return showMessage(words(document.error().message));
   session_.start(*document, {}, tr("From %1").arg(name));
 }
@@ -180,9 +180,8 @@ bool MainWindow::open(const std::filesystem::path& path) {
     session_.start(*document, {}, tr("New on %1").arg(name));
     return true;
   }
-  const Result<Document> document =
-      longWork<Document>(this, tr("%1 is being opened").arg(name),
-                         [path](Progress&) { return openDocument(path); });
+  const Result<Document> document = longWork<Document>(
+      this, tr("%1 is being opened").arg(name), [path](Progress&) { return openDocument(path); });
   if (!document) {
     tellUnopened(path, words(document.error().message));
     return false;

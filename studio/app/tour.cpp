@@ -69,8 +69,9 @@ void Tour::tell() {
              "pattern follows your hand."));
       break;
     default:
-      words_->setText(tr("<b>That is all.</b>&nbsp; F1 has every key; the wetsuit on the start "
-                         "page is there to be changed."));
+      words_->setText(
+          tr("<b>That is all.</b>&nbsp; F1 has every key; the wetsuit on the start "
+             "page is there to be changed."));
       close_->setText(tr("Close"));
   }
   place();

@@ -22,8 +22,7 @@ struct Words {
 
 /// The model of a body that needs no fit: built in, or a file of the same connectivity.
 Result<ReferenceModel> load(const ModelReference& body, const std::filesystem::path& path) {
-  return isBuiltin(body.reference) ? makeBuiltinModel(body.reference)
-                                   : readModel(path, body.unit);
+  return isBuiltin(body.reference) ? makeBuiltinModel(body.reference) : readModel(path, body.unit);
 }
 
 }  // namespace
@@ -49,8 +48,8 @@ QString bodyName(const ModelReference& body) {
 Result<Document> Bodies::carry(const Document& document, const ModelReference& body,
                                const std::filesystem::path& path, Progress* progress) {
   Result<ReferenceModel> model = load(body, path);
-  const bool isSame = model && model->mesh->connectivityHash() ==
-                                   document.model->mesh->connectivityHash();
+  const bool isSame =
+      model && model->mesh->connectivityHash() == document.model->mesh->connectivityHash();
   if (isSame) {
     Result<CarriedDesign> carried = carryToModel(
         document, std::make_shared<const ReferenceModel>(std::move(*model)), {}, progress);
@@ -59,8 +58,8 @@ Result<Document> Bodies::carry(const Document& document, const ModelReference& b
   }
   if (!model && isBuiltin(body.reference)) return model.error();
   // A scan may have holes and loose parts that readModel() refuses.
-  Result<Scan> scan =
-      model ? Result<Scan>(makeScan(path.filename().string(), *model->mesh)) : readScan(path, body.unit);
+  Result<Scan> scan = model ? Result<Scan>(makeScan(path.filename().string(), *model->mesh))
+                            : readScan(path, body.unit);
   if (!scan) return scan.error();
   Result<CarriedDesign> carried = carryToScan(document, *scan, {}, progress);
   if (!carried) return carried.error();

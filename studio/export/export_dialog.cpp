@@ -40,28 +40,45 @@ struct Format {
 };
 const Format kFormats[] = {
     {QT_TRANSLATE_NOOP("ExportDialog", "PDF, true size"),
-     QT_TRANSLATE_NOOP("ExportDialog", "For paper: one sheet or tiles"), {"pattern.pdf"}, true},
+     QT_TRANSLATE_NOOP("ExportDialog", "For paper: one sheet or tiles"),
+     {"pattern.pdf"},
+     true},
     {QT_TRANSLATE_NOOP("ExportDialog", "DXF for cutters"),
-     QT_TRANSLATE_NOOP("ExportDialog", "Layers of ASTM D6673 or AAMA"), {"pattern.dxf"}, true},
+     QT_TRANSLATE_NOOP("ExportDialog", "Layers of ASTM D6673 or AAMA"),
+     {"pattern.dxf"},
+     true},
     {QT_TRANSLATE_NOOP("ExportDialog", "SVG"),
-     QT_TRANSLATE_NOOP("ExportDialog", "Named layers, true size"), {"pattern.svg"}, true},
+     QT_TRANSLATE_NOOP("ExportDialog", "Named layers, true size"),
+     {"pattern.svg"},
+     true},
     {QT_TRANSLATE_NOOP("ExportDialog", "DXF for lasers and knives"),
-     QT_TRANSLATE_NOOP("ExportDialog", "Cut, mark, engrave"), {"laser.dxf"}, false},
+     QT_TRANSLATE_NOOP("ExportDialog", "Cut, mark, engrave"),
+     {"laser.dxf"},
+     false},
     {QT_TRANSLATE_NOOP("ExportDialog", "Plotter file"),
-     QT_TRANSLATE_NOOP("ExportDialog", "HP-GL"), {"pattern.plt"}, false},
+     QT_TRANSLATE_NOOP("ExportDialog", "HP-GL"),
+     {"pattern.plt"},
+     false},
     {QT_TRANSLATE_NOOP("ExportDialog", "Sewing sheet"),
      QT_TRANSLATE_NOOP("ExportDialog", "Which seam goes where"),
-     {"sewing.pdf", "sewing.html", "seams.json"}, true},
+     {"sewing.pdf", "sewing.html", "seams.json"},
+     true},
     {QT_TRANSLATE_NOOP("ExportDialog", "Lengths"),
-     QT_TRANSLATE_NOOP("ExportDialog", "Every seam in a table"), {"lengths.csv"}, false},
+     QT_TRANSLATE_NOOP("ExportDialog", "Every seam in a table"),
+     {"lengths.csv"},
+     false},
     {QT_TRANSLATE_NOOP("ExportDialog", "Report"),
      QT_TRANSLATE_NOOP("ExportDialog", "Lengths, areas, findings"),
-     {"preview.png", "report.html", "report.json"}, true},
+     {"preview.png", "report.html", "report.json"},
+     true},
     {QT_TRANSLATE_NOOP("ExportDialog", "Pieces as OBJ"),
-     QT_TRANSLATE_NOOP("ExportDialog", "On the body, with pattern coordinates"), {"pieces"},
+     QT_TRANSLATE_NOOP("ExportDialog", "On the body, with pattern coordinates"),
+     {"pieces"},
      false},
     {QT_TRANSLATE_NOOP("ExportDialog", "Picture of the body"),
-     QT_TRANSLATE_NOOP("ExportDialog", "As it is seen now, PNG"), {"body.png"}, false}};
+     QT_TRANSLATE_NOOP("ExportDialog", "As it is seen now, PNG"),
+     {"body.png"},
+     false}};
 constexpr int kPdf = 0, kDxf = 1;
 
 constexpr PdfPaper kPapers[] = {PdfPaper::A4OrLetter, PdfPaper::A4, PdfPaper::Letter,
@@ -234,11 +251,11 @@ QWidget* ExportDialog::makeFoot() {
   folder_ = new QLineEdit;
   folder_->setObjectName(QStringLiteral("exportFolder"));
   folder_->setAccessibleName(tr("Folder"));
-  folder_->setText(QSettings()
-                       .value(QStringLiteral("exportFolder"),
-                              QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) +
-                                  '/' + title_)
-                       .toString());
+  folder_->setText(
+      QSettings()
+          .value(QStringLiteral("exportFolder"),
+                 QStandardPaths::writableLocation(QStandardPaths::DocumentsLocation) + '/' + title_)
+          .toString());
   folder_->setMinimumWidth(320);
   row->addWidget(folder_);
   auto* choose = new QPushButton(tr("Choose…"));
@@ -290,8 +307,7 @@ void ExportDialog::makeFiles() {
   job_ = std::make_shared<Job>();
   QPointer<ExportDialog> self(this);
   QThreadPool::globalInstance()->start([self, job = job_, pattern = pattern_,
-                                        folder = made_->path().toStdString(),
-                                        options = options()] {
+                                        folder = made_->path().toStdString(), options = options()] {
     Result<WrittenPattern> written = writePattern(*pattern, folder, job.get(), options);
     QMetaObject::invokeMethod(
         qApp,
@@ -385,8 +401,8 @@ void ExportDialog::showChosen() {
   if (export_ == nullptr) return;
   export_->setEnabled(isReady_ && files > 0);
   export_->setText(isReady_ ? tr("Export %n files", nullptr, files) : tr("Export"));
-  export_->setToolTip(isReady_    ? files > 0 ? QString() : tr("Tick a file to write")
-                                  : tr("The files are being made"));
+  export_->setToolTip(isReady_ ? files > 0 ? QString() : tr("Tick a file to write")
+                               : tr("The files are being made"));
 }
 
 std::optional<int> ExportDialog::exportChosen() {

@@ -132,8 +132,8 @@ QPixmap FilePreview::picture(const QSize& room) const {
     const auto sheet = pdf_->page(page_);
     if (!sheet) return {};
     const QSizeF points = sheet->pageSizeF();
-    const double fit = kPointsPerInch * std::min(room.width() / points.width(),
-                                                 room.height() / points.height());
+    const double fit =
+        kPointsPerInch * std::min(room.width() / points.width(), room.height() / points.height());
     const double dpi = isTrueSize_ ? physicalDpiX() : fit;
     QPixmap page = QPixmap::fromImage(sheet->renderToImage(dpi * ratio, dpi * ratio));
     page.setDevicePixelRatio(ratio);

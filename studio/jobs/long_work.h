@@ -15,8 +15,8 @@ namespace toile::studio {
 /// Does work off the UI thread while the window stays alive: after 0.3 s a box tells the step and
 /// offers Cancel. Returns when the work has ended, also after Cancel. What it throws comes as the
 /// returned words.
-[[nodiscard]] std::optional<std::string> runLongWork(
-    QWidget* parent, const QString& title, const std::function<void(Progress&)>& work);
+[[nodiscard]] std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
+                                                     const std::function<void(Progress&)>& work);
 
 /// The same for a call that gives a Result.
 template <class T>

@@ -43,9 +43,9 @@ void Card::paintEvent(QPaintEvent*) {
     const qreal scale =
         std::max(room.width() / picture_.width(), room.height() / picture_.height());
     const QSizeF seen(room.width() / scale, room.height() / scale);
-    const QRectF from(QPointF(0.5 * (picture_.width() - seen.width()),
-                              0.5 * (picture_.height() - seen.height())),
-                      seen);
+    const QRectF from(
+        QPointF(0.5 * (picture_.width() - seen.width()), 0.5 * (picture_.height() - seen.height())),
+        seen);
     painter.drawPixmap(room, picture_, from);
   }
   painter.restore();

@@ -19,8 +19,7 @@ QString key() {
 }
 
 QString pictureFile(const QString& file) {
-  const QByteArray name =
-      QCryptographicHash::hash(file.toUtf8(), QCryptographicHash::Sha1).toHex();
+  const QByteArray name = QCryptographicHash::hash(file.toUtf8(), QCryptographicHash::Sha1).toHex();
   return QStandardPaths::writableLocation(QStandardPaths::AppLocalDataLocation) +
          QStringLiteral("/pictures/") + QString::fromLatin1(name) + QStringLiteral(".png");
 }

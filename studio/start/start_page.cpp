@@ -149,8 +149,8 @@ QWidget* StartPage::makeTemplates() {
   for (const Template& one : kTemplates) {
     const QString file = QStringLiteral(":/templates/") + QString::fromLatin1(one.file);
     const QString name = tr(one.name);
-    auto* card = new Card(name, tr(one.line), QPixmap(file + QStringLiteral(".png")),
-                          kTemplateCard);
+    auto* card =
+        new Card(name, tr(one.line), QPixmap(file + QStringLiteral(".png")), kTemplateCard);
     card->setObjectName(QString::fromLatin1(one.file));
     connect(card, &Card::clicked, this,
             [this, file, name] { Q_EMIT templateChosen(file + QStringLiteral(".toile"), name); });

@@ -75,11 +75,10 @@ class SizePicture final : public QWidget {
     painter.setBrush(studio::palette().clay);
     const auto at = [&](double x, double y) { return foot + QPointF(x * u, -y * u); };
     painter.drawEllipse(at(0, 7.5), 0.38 * u, 0.5 * u);
-    painter.drawPolygon(QPolygonF({at(-0.15, 7.1), at(0.15, 7.1), at(0.9, 6.6), at(1.25, 3.9),
-                                   at(1.0, 3.9), at(0.7, 5.6), at(0.62, 4.2), at(0.55, 0),
-                                   at(0.15, 0), at(0, 3.7), at(-0.15, 0), at(-0.55, 0),
-                                   at(-0.62, 4.2), at(-0.7, 5.6), at(-1.0, 3.9), at(-1.25, 3.9),
-                                   at(-0.9, 6.6)}));
+    painter.drawPolygon(QPolygonF(
+        {at(-0.15, 7.1), at(0.15, 7.1), at(0.9, 6.6), at(1.25, 3.9), at(1.0, 3.9), at(0.7, 5.6),
+         at(0.62, 4.2), at(0.55, 0), at(0.15, 0), at(0, 3.7), at(-0.15, 0), at(-0.55, 0),
+         at(-0.62, 4.2), at(-0.7, 5.6), at(-1.0, 3.9), at(-1.25, 3.9), at(-0.9, 6.6)}));
   }
 
   QPolygonF points_;
@@ -96,8 +95,7 @@ QString sizeText(double mm) {
   return QString::number(mm, 'f', mm < 10 ? 1 : 0) + space + QStringLiteral("mm");
 }
 
-UnitDialog::UnitDialog(const QString& name, const std::vector<Vector3d>& positions,
-                       QWidget* parent)
+UnitDialog::UnitDialog(const QString& name, const std::vector<Vector3d>& positions, QWidget* parent)
     : QDialog(parent) {
   setObjectName(QStringLiteral("unitDialog"));
   setWindowTitle(tr("Open %1").arg(name));

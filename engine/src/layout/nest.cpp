@@ -73,7 +73,7 @@ class Problem {
     const int rounds =
         options_.effort <= 0
             ? 0
-            : static_cast<int>(std::min(1e6, 1000.0 * std::pow(2.0, options_.effort) /
+            : static_cast<int>(std::min(1e6, 250.0 * std::pow(2.0, options_.effort) /
                                                  static_cast<double>(copies_.size())));
     const std::optional<nesting::Fill> fill = searchFill(filler, rounds, tell, progress);
     if (isCancelled(progress))
