@@ -15,6 +15,7 @@
 #include <QSplitter>
 #include <QStackedWidget>
 #include <QTabWidget>
+#include <algorithm>
 
 #include "app/pane_corners.h"
 #include "export/export_dialog.h"
@@ -35,6 +36,7 @@ namespace toile::studio {
 
 namespace {
 
+const QString kUnit = QStringLiteral("unit");
 constexpr int kBackupEvery = 5000;  // ms; at most 10 s of work may be lost
 
 QString fromPath(const std::filesystem::path& path) {
@@ -59,13 +61,14 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), recovery_(recover
   stack_ = new QStackedWidget;
   stack_->addWidget(panes_);
   setCentralWidget(stack_);
+  session_.setUnit(static_cast<LengthUnit>(std::clamp(QSettings().value(kUnit, 0).toInt(), 0, 2)));
   makeActions();
   makeToolActions();
   makeStartPage();
   makeMenus();
+  makeBars();
   makeBodyMenu();
   makeHelpMenu();
-  makeBars();
   makeDock();
   makeStatusBar();
   addPaneCorners(*viewport_, *pattern_, session_, actions_);
@@ -93,6 +96,8 @@ void MainWindow::connectSession() {
   connect(&session_, &Session::toolMoved, this, &MainWindow::showHint);
   connect(&session_, &Session::patternStateChanged, this, &MainWindow::showPatternState);
   connect(&session_, &Session::told, this, &MainWindow::showMessage);
+  connect(&session_, &Session::toolChanged, this,
+          [this] { QSettings().setValue(kUnit, static_cast<int>(session_.unit())); });
   connect(viewport_, &Viewport::contextMenuWanted, this, &MainWindow::showContextMenu);
 }
 

@@ -4,8 +4,11 @@
 #include <QMenu>
 #include <QMenuBar>
 #include <QMessageBox>
+#include <QToolBar>
+#include <QToolButton>
 #include <algorithm>
 
+#include "app/icons.h"
 #include "app/main_window.h"
 #include "jobs/long_work.h"
 #include "toile/body/sizes.h"
@@ -18,6 +21,21 @@ void MainWindow::makeBodyMenu() {
   menu->setObjectName(QStringLiteral("bodies"));
   connect(menu, &QMenu::aboutToShow, this, [this, menu] { fillBodyMenu(*menu); });
   connect(&session_, &Session::workStarted, this, [this] { bodies_.forget(); });
+
+  // The same menu in the bar above, before Export.
+  auto* bar = findChild<QToolBar*>(QStringLiteral("top"));
+  auto* chooser = new QToolButton;
+  chooser->setObjectName(QStringLiteral("bodyChooser"));
+  chooser->setIcon(icon(QStringLiteral("body")));
+  chooser->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+  chooser->setPopupMode(QToolButton::InstantPopup);
+  chooser->setToolTip(tr("The body that is designed on"));
+  chooser->setMenu(menu);
+  bar->insertWidget(bar->actions().last(), chooser);
+  connect(&session_, &Session::historyChanged, chooser, [this, chooser] {
+    const auto& models = session_.document().design->models;
+    chooser->setText(models.empty() ? tr("Body") : bodyName(models.front()));
+  });
 }
 
 void MainWindow::fillBodyMenu(QMenu& menu) {

@@ -84,6 +84,8 @@ QPushButton#answer { border-color: @accent; color: @accentText; }
 QLineEdit, QComboBox, QSpinBox { background: @field; border: 1px solid @edge; border-radius: 6px; padding: 3px 8px; min-height: 20px; selection-background-color: @accent; }
 QLineEdit:focus, QComboBox:focus { border: 2px solid @accent; padding: 2px 7px; }
 QLineEdit:disabled, QComboBox:disabled { color: @disabled; border-color: @divider; }
+QComboBox::drop-down { border: 0; width: 20px; }
+QComboBox::down-arrow { image: url(:/templates/chevron-down.svg); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { background: @panel; selection-background-color: @accentSoft; selection-color: @text; }
 QDockWidget, QDockWidget > QWidget, QScrollArea, QWidget#dock { background: @panel; border: 0; }
 QWidget#dock { border-left: 1px solid @divider; }

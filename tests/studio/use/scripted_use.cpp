@@ -11,7 +11,9 @@
 #include <QTemporaryDir>
 #include <algorithm>
 #include <fstream>
+#include <functional>
 #include <iterator>
+#include <set>
 
 #include "app/palette.h"
 #include "hand.h"
@@ -51,33 +53,94 @@ int drawATop(MainWindow& window, const QString& toile, const std::string& pictur
   const auto front = [&](double x, double z) {
     return model.index->firstVisibleHit({x, -2000, z}, {0, 1, 0})->position;
   };
-  const double chest = 0.74 * model.mesh->boxMax().z(), hem = 0.58 * model.mesh->boxMax().z();
+  const double tall = model.mesh->boxMax().z();
+  const double chest = 0.74 * tall, hem = 0.58 * tall;
+  const auto ids = [&] {
+    std::set<std::string> all;
+    for (const auto& curve : session.document().design->curves) all.insert(curve.id);
+    return all;
+  };
+  /// Draws, and gives the line that was drawn: with a twin, or across the middle by itself.
+  const auto drawn = [&](const char* what, bool hasTwin, const std::function<void()>& draw) {
+    const std::set<std::string> before = ids();
+    draw();
+    std::string line;
+    std::size_t count = 0;
+    for (const auto& curve : session.document().design->curves) {
+      if (before.contains(curve.id)) continue;
+      ++count;
+      if (!curve.mirrorOf) line = curve.id;
+    }
+    require(count == (hasTwin ? 2 : 1) && !line.empty(), what);
+    return line;
+  };
+  const auto pointOf = [&](const std::string& line,
+                           const std::function<double(const Vector3d&)>& measure) {
+    const auto& points = session.lines().find(line)->points;
+    return *std::ranges::max_element(points, {}, measure);
+  };
 
-  // ---- half a top, drawn on the left side
-  hand.command("tool-curve");
-  hand.click(front(0, chest + 70));
-  hand.click(front(50, chest + 85));
-  hand.click(front(100, chest + 60));
-  hand.key(Qt::Key_Return);
-  require(session.document().design->curves.size() == 2, "a curve and its twin");
-  hand.command("tool-pencil");
-  std::vector<Vector2d> stroke;
-  for (int i = 0; i <= 6; ++i) {
-    const double t = i / 6.0;
-    stroke.push_back(
-        hand.pixel(front(100 + 8 * std::sin(3.1 * t), (1 - t) * (chest + 60) + t * hem)));
+  // ---- a top, of which the left half is drawn
+  const std::string neck = drawn("a neckline round the neck", false, [&] {
+    hand.command("tool-girth");
+    hand.click(front(0, 0.845 * tall));
+  });
+  const std::string waist = drawn("a hem round the waist", false, [&] {
+    hand.command("tool-girth");
+    hand.click(front(0, hem));
+  });
+  // The arm stands off the trunk below the armpit: there the sleeve ends.
+  double sleeve = chest, middle = 0;
+  for (bool gap = false; !gap; sleeve -= 5) {
+    require(sleeve > hem, "the arm stands off the trunk");
+    double outer = 0;
+    for (double x = 500; x > 120 && !gap; x -= 2) {
+      const bool isBody =
+          model.index->firstVisibleHit({x, -2000, sleeve - 15}, {0, 1, 0}).has_value();
+      if (isBody && outer == 0) outer = x;
+      if (!isBody && outer > 0) gap = true, middle = 0.5 * (outer + x);
+    }
   }
-  hand.drag(stroke);
-  require(session.document().design->curves.size() == 4, "a pencil line and its twin");
-  hand.command("tool-curve");
-  hand.click(front(100, hem));
-  hand.click(front(50, hem - 12));
-  hand.click(front(0, hem - 15));
-  hand.key(Qt::Key_Return);
-  require(session.document().design->curves.size() == 6, "a hem and its twin");
+  const std::string cuff = drawn("a sleeve's end round the arm, and its twin", true, [&] {
+    hand.command("tool-girth");
+    hand.click(front(middle, sleeve - 15));
+  });
+  const std::string side = drawn("a pencil line from sleeve to hem, and its twin", true, [&] {
+    hand.command("tool-pencil");
+    std::vector<Vector2d> way{hand.pixel(pointOf(cuff, [](const auto& p) { return -p.y(); }))};
+    for (const auto& [x, z] : {std::pair(middle - 25, sleeve + 30), std::pair(165.0, sleeve + 45),
+                               std::pair(125.0, sleeve), std::pair(110.0, 0.5 * (sleeve + hem))}) {
+      way.push_back(hand.pixel(front(x, z)));
+    }
+    way.push_back(hand.pixel(
+        pointOf(waist, [](const auto& p) { return -p.y() - 10 * std::abs(p.x() - 105); })));
+    hand.drag(way);
+  });
+  const std::string shoulder = drawn("a shoulder seam by curve, and its twin", true, [&] {
+    Camera above = window.viewport().camera();
+    above.azimuth = 0.7;
+    above.elevation = 0.45;
+    window.viewport().lookFrom(above);
+    const Vector3d from = pointOf(neck, [](const auto& p) { return p.x(); });
+    const Vector3d to = pointOf(cuff, [](const auto& p) { return p.x(); });
+    hand.command("tool-curve");
+    hand.click(from);
+    for (const double t : {0.35, 0.7}) {
+      const Vector3d on = (1 - t) * from + t * to;
+      hand.click(model.index->firstVisibleHit({on.x(), on.y(), 3000}, {0, 0, -1})->position);
+    }
+    hand.click(to);
+    hand.key(Qt::Key_Return);
+    window.viewport().lookFrom(StandardView::Front);
+    window.viewport().fitAll();
+  });
   hand.settle();
-  require(session.pattern()->cut.pieces.size() == 2, "the lines close a piece");
+  for (const Piece& piece : session.pattern()->cut.pieces) {
+    std::printf("  %s %zu faces\n", piece.id.c_str(), piece.mesh->faceCount());
+  }
+  // Front and back, the head, two hands, the legs.
   hand.picture("drawn");
+  require(session.pattern()->cut.pieces.size() == 6, "the lines close front and back");
 
   // ---- names
   hand.command("tool-select");
@@ -85,31 +148,49 @@ int drawATop(MainWindow& window, const QString& toile, const std::string& pictur
   require(session.selection().kind == Selection::Kind::Piece, "a click selects the piece");
   hand.namePiece(QStringLiteral("Front"));
   hand.settle();
-  hand.click(front(0, hem - 120));
-  hand.namePiece(QStringLiteral("Rest"));
+  const auto leaveOut = [&](const Vector3d& place, const QString& name) {
+    hand.click(place);
+    hand.namePiece(name);
+    hand.settle();
+    auto* include = window.findChild<QCheckBox*>(QStringLiteral("pieceIncluded"));
+    require(include != nullptr, "a piece can be left out");
+    include->click();
+    hand.settle();
+  };
+  leaveOut(front(0, 0.93 * tall), QStringLiteral("Head"));
+  leaveOut(front(80, 0.3 * tall), QStringLiteral("Legs"));
+  const Vector3d hand1 = pointOf(cuff, [](const auto& p) { return -p.y(); });
+  leaveOut(front(hand1.x() + 12, hand1.z() - 30), QStringLiteral("Hand left"));
+  leaveOut(front(-hand1.x() - 12, hand1.z() - 30), QStringLiteral("Hand right"));
+  window.viewport().lookFrom(StandardView::Back);
+  hand.click(model.index->firstVisibleHit({0, 2000, 0.5 * (chest + hem)}, {0, -1, 0})->position);
+  hand.namePiece(QStringLiteral("Back"));
   hand.settle();
-  auto* include = window.findChild<QCheckBox*>(QStringLiteral("pieceIncluded"));
-  require(include != nullptr, "a piece can be left out");
-  include->click();
-  hand.settle();
-  require(session.pattern()->pieces.size() == 1, "the rest of the body is left out");
-  require(session.document().design->pieces.size() == 2, "both pieces have records");
+  window.viewport().lookFrom(StandardView::Front);
+  hand.picture("named");
+  require(session.pattern()->pieces.size() == 2, "front and back are the pattern");
+  require(session.document().design->pieces.size() == 6, "all pieces have records");
   require(session.document().design->pieces[0].name == "Front", "the name is in the design");
 
   // ---- a point pulled behind the arm
-  const std::string side = session.document().design->curves[2].id;
-  hand.click(session.lines().find(side)->points[session.lines().find(side)->points.size() / 3]);
+  const auto& way = session.lines().find(side)->points;
+  hand.click(way[2 * way.size() / 3]);
   require(session.selection().isLine(side), "a click selects the line");
   const Overlay overlay = session.tool().overlay(session);
   require(overlay.points.size() >= 3, "the line shows its points");
-  const Vector3d from = overlay.points[1].place;
+  // In the flank, beside the arm that hangs before it when the body is seen from its left.
+  const double flank = 0.6 * sleeve + 0.4 * hem;
+  const Vector3d from =
+      std::ranges::min_element(overlay.points, {}, [&](const OverlayPoint& point) {
+        return std::abs(point.place.z() - flank);
+      })->place;
   const Vector2d at = hand.pixel(from);
   Camera camera = window.viewport().camera();
   camera.azimuth = 0.9;
   window.viewport().lookFrom(camera);
   const Vector2d turnedAt = hand.pixel(from);
   const std::size_t steps = session.history().steps().size();
-  hand.drag({turnedAt, turnedAt + Vector2d(14, 0), turnedAt + Vector2d(26, 4)});
+  hand.drag({turnedAt, turnedAt + Vector2d(14, 0), turnedAt + Vector2d(30, 4)});
   require((turnedAt - at).norm() > 1, "the view was turned");
   require(session.history().steps().size() == steps + 1, "a drag is one step");
   hand.settle();
@@ -123,10 +204,11 @@ int drawATop(MainWindow& window, const QString& toile, const std::string& pictur
   window.viewport().lookFrom(StandardView::Front);
   window.viewport().fitAll();
   hand.command("tool-dart");
-  const auto& points = session.lines().find(side)->points;
-  // At the bust: a dart opens only where the surface is round, elsewhere its sides would overlap.
-  hand.click(points[points.size() / 10]);
-  hand.click(front(65, chest + 5));
+  // Below the bust: a dart opens only where the surface is round, elsewhere its sides would
+  // overlap.
+  const Vector3d bust = position(*model.mesh, model.landmarks.at("bust_point_l"));
+  hand.click(pointOf(side, [&](const auto& p) { return -std::abs(p.z() - bust.z() + 40); }));
+  hand.click(front(70, bust.z() - 12));
   const auto& curves = session.document().design->curves;
   require(std::ranges::any_of(curves, [](const auto& c) { return c.kind == CurveKind::Dart; }),
           "the dart is drawn");
@@ -135,8 +217,8 @@ int drawATop(MainWindow& window, const QString& toile, const std::string& pictur
   for (const auto& failure : session.pattern()->failures) {
     if (failure) std::printf("%s\n", failure->message.c_str());
   }
-  require(!session.pattern()->pieces.empty(), "the pattern has the piece");
   hand.picture("dart");
+  require(session.pattern()->pieces.size() == 2, "front and back are the pattern still");
 
   // ---- back to the start and forth again
   const std::string whole = writeDesign(*session.document().design);
