@@ -8,6 +8,7 @@
 #include <cmath>
 #include <memory>
 
+#include "fit/laplacian.h"
 #include "mesh/bounding_tree.h"
 #include "mesh/triangle_queries.h"
 #include "toile/core/parallel.h"
@@ -82,7 +83,8 @@ class Smoother {
     }
     if (found.size() < 10) return true;
     const double reach = 4 * quantile(found, 0.5) + 0.2 * edge;
-    Eigen::SparseMatrix<double> matrix = smoothness(shape, 0.55 * edge);
+    Eigen::SparseMatrix<double> matrix = cotangentLaplacian(mesh_.triangles(), positions);
+    matrix *= std::pow(0.55 * edge, 2) / shape.totalArea;
     Eigen::VectorXd right = Eigen::VectorXd::Zero(matrix.rows());
     double total = 0;
     for (std::size_t i = 0; i < hits.size(); ++i) {
@@ -134,32 +136,6 @@ class Smoother {
   }
 
  private:
-  /// Lower triangle of length^2 times the cotangent Laplacian over the area, cotangents at least a
-  /// little positive.
-  Eigen::SparseMatrix<double> smoothness(const Shape& shape, double length) const {
-    std::vector<Eigen::Triplet<double>> entries;
-    entries.reserve(9 * mesh_.faceCount());
-    for (const Triangle& t : mesh_.triangles()) {
-      for (std::size_t k = 0; k < 3; ++k) {
-        const std::uint32_t a = t[k].index();
-        const std::uint32_t b = t[(k + 1) % 3].index();
-        const Eigen::Vector3d& tip = shape.positions[t[(k + 2) % 3].index()];
-        const Eigen::Vector3d u = shape.positions[a] - tip;
-        const Eigen::Vector3d v = shape.positions[b] - tip;
-        const double cotangent = u.dot(v) / std::max(u.cross(v).norm(), 1e-12);
-        const double weight =
-            std::clamp(0.5 * cotangent, 1e-3, 1e3) * length * length / shape.totalArea;
-        entries.emplace_back(a, a, weight);
-        entries.emplace_back(b, b, weight);
-        entries.emplace_back(std::max(a, b), std::min(a, b), -weight);
-      }
-    }
-    const auto size = static_cast<Eigen::Index>(shape.positions.size());
-    Eigen::SparseMatrix<double> matrix(size, size);
-    matrix.setFromTriplets(entries.begin(), entries.end());
-    return matrix;
-  }
-
   const Mesh& mesh_;
   const Target& target_;
   std::vector<std::uint32_t> asked_;

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "fit/arms.h"
 #include "fit/coarse.h"
 #include "fit/fine.h"
 #include "fit/judge.h"
@@ -55,7 +56,7 @@ class Fitter {
     const Graph graph = makeGraph(mesh_, mesh_.positions(), kNodes);
     CoarseProblem problem{mesh_.triangles(), graph, target, placed(placement), {}, pins(), 1};
     problem.family = familyAround(problem.rest);
-    pose(placement, problem);
+    pose(placement, target, problem);
     problem.pinScale = 1 / (1 + std::pow(options_.landmarkError.mm(), 2));
     const std::optional<CoarseFit> coarse = fitCoarse(problem, progress_);
     if (!coarse) return cancelled();
@@ -194,13 +195,20 @@ class Fitter {
     return makeShape(mesh_.triangles(), std::move(positions));
   }
 
-  /// Takes the rest shape and what the family adds to it into the posture that landmarks say.
-  void pose(const Placement& placement, CoarseProblem& problem) const {
-    if (options_.landmarks.size() < kEnoughLandmarks) return;
+  /// Takes the rest shape and what the family adds to it into the posture that landmarks say;
+  /// without them a body's arms to where the scan has them.
+  void pose(const Placement& placement, const Target& target, CoarseProblem& problem) const {
     Places own;
     for (const auto& [name, p] : placesOf(model_)) own[name] = placement.similarity.apply(p);
-    std::optional<Posed> posed =
-        poseByLandmarks(mesh_, problem.rest.positions, own, options_.landmarks);
+    std::optional<Posed> posed;
+    if (options_.landmarks.size() >= kEnoughLandmarks) {
+      posed = poseByLandmarks(mesh_, problem.rest.positions, own, options_.landmarks);
+    } else {
+      const std::vector<std::uint32_t> segmentOf = segmentOfPoints(problem.rest.positions, own);
+      const auto arms =
+          findArms(problem.rest, segmentOf, own, placement.similarity.rotation, target);
+      if (arms) posed = poseBySegments(mesh_, problem.rest.positions, segmentOf, *arms);
+    }
     if (!posed) return;
     problem.rest = makeShape(mesh_.triangles(), std::move(posed->positions));
     for (std::vector<Eigen::Vector3d>& added : problem.family) {

@@ -8,8 +8,8 @@
 #include <array>
 #include <cmath>
 
+#include "fit/laplacian.h"
 #include "fit/lay_out.h"
-#include "fit/placement.h"
 #include "fit/surface.h"
 
 namespace toile::fitting {
@@ -68,31 +68,15 @@ Eigen::MatrixXd shares(const Mesh& mesh, const Shape& shape,
                        const std::vector<std::uint32_t>& segmentOf, std::size_t segments,
                        double length) {
   const auto count = static_cast<Eigen::Index>(shape.positions.size());
-  std::vector<Eigen::Triplet<double>> entries;
   Eigen::MatrixXd right = Eigen::MatrixXd::Zero(count, static_cast<Eigen::Index>(segments));
+  Eigen::SparseMatrix<double> matrix =
+      length * length * cotangentLaplacian(mesh.triangles(), shape.positions);
   for (Eigen::Index v = 0; v < count; ++v) {
     const double area = shape.area[static_cast<std::size_t>(v)] + 1e-12;
-    entries.emplace_back(v, v, area);
+    matrix.coeffRef(v, v) += area;
     right(v, segmentOf[static_cast<std::size_t>(v)]) = area;
   }
-  for (const Triangle& t : mesh.triangles()) {
-    for (std::size_t k = 0; k < 3; ++k) {
-      const std::uint32_t a = t[k].index();
-      const std::uint32_t b = t[(k + 1) % 3].index();
-      const Eigen::Vector3d& tip = shape.positions[t[(k + 2) % 3].index()];
-      const Eigen::Vector3d u = shape.positions[a] - tip;
-      const Eigen::Vector3d v = shape.positions[b] - tip;
-      const double cotangent = u.dot(v) / std::max(u.cross(v).norm(), 1e-12);
-      const double weight = std::clamp(0.5 * cotangent, 1e-3, 1e3) * length * length;
-      entries.emplace_back(a, a, weight);
-      entries.emplace_back(b, b, weight);
-      entries.emplace_back(a, b, -weight);
-      entries.emplace_back(b, a, -weight);
-    }
-  }
-  Eigen::SparseMatrix<double> matrix(count, count);
-  matrix.setFromTriplets(entries.begin(), entries.end());
-  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver(matrix);
+  const Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>, Eigen::Lower> solver(matrix);
   Eigen::MatrixXd share = solver.solve(right);
   for (Eigen::Index v = 0; v < count; ++v) share.row(v) /= share.row(v).sum();
   return share;
@@ -116,11 +100,21 @@ std::optional<Posed> poseByLandmarks(const Mesh& connectivity,
     if (!found[s]) found[s] = found[kParent[s]];
   }
 
+  std::vector<Similarity> motions;
+  for (const auto& motion : found) motions.push_back(*motion);
+  return poseBySegments(connectivity, positions, segmentOf, motions);
+}
+
+Posed poseBySegments(const Mesh& connectivity, const std::vector<Eigen::Vector3d>& positions,
+                     const std::vector<std::uint32_t>& segmentOf,
+                     const std::vector<Similarity>& motions) {
   const Shape shape = makeShape(connectivity.triangles(), positions);
   Eigen::AlignedBox3d box;
   for (const Eigen::Vector3d& p : positions) box.extend(p);
   const Eigen::MatrixXd share =
-      shares(connectivity, shape, segmentOf, segments.size(), kBlend * box.diagonal().norm());
+      shares(connectivity, shape, segmentOf, motions.size(), kBlend * box.diagonal().norm());
+  // Where segments are short no vertex follows one alone; the stiffest then holds the rest.
+  const double stiff = std::min(kStiff, share.maxCoeff());
   Posed posed;
   std::vector<char> isFree(positions.size(), 0);
   for (std::size_t v = 0; v < positions.size(); ++v) {
@@ -128,15 +122,15 @@ std::optional<Posed> poseByLandmarks(const Mesh& connectivity,
     Eigen::Matrix3d rotation = Eigen::Matrix3d::Zero();
     Eigen::Vector3d at = Eigen::Vector3d::Zero();
     double scale = 0;
-    for (std::size_t s = 0; s < segments.size(); ++s) {
+    for (std::size_t s = 0; s < motions.size(); ++s) {
       const double weight = row[static_cast<Eigen::Index>(s)];
-      rotation += weight * found[s]->rotation;
-      scale += weight * found[s]->scale;
-      at += weight * found[s]->apply(positions[v]);
+      rotation += weight * motions[s].rotation;
+      scale += weight * motions[s].scale;
+      at += weight * motions[s].apply(positions[v]);
     }
     posed.linear.emplace_back(scale * nearestRotation(rotation));
     posed.positions.push_back(at);
-    isFree[v] = row.maxCoeff() < kStiff ? 1 : 0;
+    isFree[v] = row.maxCoeff() < stiff ? 1 : 0;
   }
   layOut(connectivity, positions, posed.linear, isFree, posed.positions);
   return posed;

@@ -5,6 +5,7 @@
 #include <optional>
 #include <vector>
 
+#include "fit/placement.h"
 #include "fit/segments.h"
 #include "toile/mesh/mesh.h"
 
@@ -21,5 +22,11 @@ struct Posed {
 [[nodiscard]] std::optional<Posed> poseByLandmarks(const Mesh& connectivity,
                                                    const std::vector<Eigen::Vector3d>& positions,
                                                    const Places& own, const Places& wanted);
+
+/// The same with each segment's motion given, in the order of bodySegments().
+[[nodiscard]] Posed poseBySegments(const Mesh& connectivity,
+                                   const std::vector<Eigen::Vector3d>& positions,
+                                   const std::vector<std::uint32_t>& segmentOf,
+                                   const std::vector<Similarity>& motions);
 
 }  // namespace toile::fitting

@@ -7,7 +7,10 @@
 #include <cstdlib>
 #include <iostream>
 #include <map>
+#include <numbers>
 
+#include "fit/arms.h"
+#include "fit/posture.h"
 #include "support/result_printing.h"
 #include "support/test_data.h"
 #include "toile/core/file.h"
@@ -60,6 +63,11 @@ TEST(FitBody, MeasuresScansOfStrangers) {
                              r.flippedFaces);
     EXPECT_TRUE(r.isOk()) << r.reasons.front().message;
     EXPECT_LT(r.scanToFit.mean, 1);
+    // Its arms hang otherwise than the body's.
+    for (const FitRegion& region : r.regions) {
+      if (!region.name.ends_with("arm")) continue;
+      EXPECT_LT(region.scanToFit.mean, 1) << region.name;
+    }
     ASSERT_EQ(fit->measures.size(), kBodyMeasureCount);
     for (const auto& [measure, mm] : one.mm) {
       const auto i = static_cast<std::size_t>(measure);
@@ -69,6 +77,58 @@ TEST(FitBody, MeasuresScansOfStrangers) {
     }
     std::cout << "\n";
   }
+}
+
+// On one connectivity the true place of every vertex is known.
+TEST(FindArms, TurnsThemToWhereTheScanHasThem) {
+  const Result<ReferenceModel> down = makeBody({});
+  ASSERT_TRUE(down) << down.error();
+  const std::vector<Eigen::Vector3d>& from = down->mesh->positions();
+  fitting::Places own;
+  for (const auto& [name, point] : down->landmarks) own[name] = position(*down->mesh, point);
+  const std::vector<std::uint32_t> segmentOf = fitting::segmentOfPoints(from, own);
+  const fitting::Shape shape = fitting::makeShape(down->mesh->triangles(), from);
+  const auto find = [&](const Mesh& scan) {
+    return fitting::findArms(shape, segmentOf, own, Eigen::Matrix3d::Identity(),
+                             fitting::makeTarget(makeScan("scan", scan)));
+  };
+  // The left arm raised by 35 degrees and brought forward by 20, the right one lowered by 15.
+  const std::vector<fitting::Segment>& segments = fitting::bodySegments();
+  std::vector<fitting::Similarity> known(segments.size());
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    const bool isLeft = segments[s].name.starts_with("left");
+    if (!segments[s].name.ends_with("arm") && !segments[s].name.ends_with("hand")) continue;
+    const Eigen::Vector3d shoulder = own.at(isLeft ? "shoulder_l" : "shoulder_r");
+    const double degree = std::numbers::pi / 180;
+    known[s].rotation = Eigen::AngleAxisd((isLeft ? -20 : 0) * degree, Eigen::Vector3d::UnitZ()) *
+                        Eigen::AngleAxisd((isLeft ? -35 : -15) * degree, Eigen::Vector3d::UnitY())
+                            .toRotationMatrix();
+    known[s].shift = shoulder - known[s].rotation * shoulder;
+  }
+  const std::vector<Eigen::Vector3d> to =
+      fitting::poseBySegments(*down->mesh, from, segmentOf, known).positions;
+  const auto motions = find(down->mesh->withPositions(to));
+  ASSERT_TRUE(motions);
+  const fitting::Posed posed = fitting::poseBySegments(*down->mesh, from, segmentOf, *motions);
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    double before = 0, after = 0, count = 0;
+    for (std::size_t v = 0; v < from.size(); ++v) {
+      if (segmentOf[v] != s) continue;
+      before += (from[v] - to[v]).norm();
+      after += (posed.positions[v] - to[v]).norm();
+      ++count;
+    }
+    const std::string& name = segments[s].name;
+    std::cout << fmt::format("{}: {:.1f} -> {:.1f} mm off\n", name, before / count, after / count);
+    if (name.ends_with("hand") || name.ends_with("forearm")) {
+      EXPECT_GT(before / count, 50) << name;
+      EXPECT_LT(after / count, 0.25 * before / count) << name;
+    }
+    if (name.ends_with("thigh") || name == "head") {
+      EXPECT_LT(after / count, before / count + 3);
+    }
+  }
+  EXPECT_FALSE(find(*down->mesh)) << "arms that lie well are left alone";
 }
 
 }  // namespace
