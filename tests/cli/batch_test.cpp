@@ -31,16 +31,6 @@ ProgramResult toile(std::vector<std::string> arguments) {
   return runProgram(arguments);
 }
 
-std::map<std::string, std::string> filesIn(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) {
-      files[entry.path().lexically_relative(folder).string()] = readText(entry.path());
-    }
-  }
-  return files;
-}
-
 /// Two good orders, one whose body is no body, one whose row is damaged.
 fs::path writeList(const fs::path& folder) {
   writeText(folder / "chair.obj", "# toile-units: mm\nv 0 0 0\nv 9 0 0\nv 0 9 0\nf 1 2 3\n");

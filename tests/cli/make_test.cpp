@@ -32,17 +32,6 @@ ProgramResult toile(std::vector<std::string> arguments) {
   return runProgram(arguments);
 }
 
-/// Every file below the folder with its content.
-std::map<std::string, std::string> filesIn(const fs::path& folder) {
-  std::map<std::string, std::string> files;
-  for (const auto& entry : fs::recursive_directory_iterator(folder)) {
-    if (entry.is_regular_file()) {
-      files[entry.path().lexically_relative(folder).string()] = readText(entry.path());
-    }
-  }
-  return files;
-}
-
 std::vector<std::string> namesIn(const fs::path& folder) {
   std::vector<std::string> names;
   for (const auto& [name, content] : filesIn(folder)) names.push_back(name);

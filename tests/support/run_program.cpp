@@ -63,4 +63,14 @@ void writeText(const std::filesystem::path& path, const std::string& text) {
   EXPECT_TRUE(file.good()) << "cannot write " << path;
 }
 
+std::map<std::string, std::string> filesIn(const std::filesystem::path& folder) {
+  std::map<std::string, std::string> files;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    if (entry.is_regular_file()) {
+      files[entry.path().lexically_relative(folder).string()] = readText(entry.path());
+    }
+  }
+  return files;
+}
+
 }  // namespace toile::test

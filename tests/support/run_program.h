@@ -2,6 +2,7 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
@@ -32,5 +33,7 @@ class TemporaryFolder {
 /// The whole file; fails the test when it cannot be read.
 std::string readText(const std::filesystem::path& path);
 void writeText(const std::filesystem::path& path, const std::string& text);
+/// Every file below the folder with its content, by its name from there.
+std::map<std::string, std::string> filesIn(const std::filesystem::path& folder);
 
 }  // namespace toile::test
