@@ -7,10 +7,9 @@
 #include <memory>
 
 #include "commands.h"
+#include "design_files.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
-#include "toile/design/design_file.h"
-#include "toile/model/write_model.h"
 #include "toile/pipeline.h"
 #include "toile/pipeline/carry.h"
 #include "toile/shape/builtin.h"
@@ -44,27 +43,6 @@ void print(const CarriedDesign& carried, const Arguments& arguments) {
   fmt::print("{}\n", arguments.out.string());
 }
 
-/// The design beside the model that it is for now: a mesh and its names, or a built-in one.
-Result<void> write(Transfer& transfer, const Arguments& arguments) {
-  Design design = *transfer.document.design;
-  if (arguments.out.has_parent_path()) {
-    if (auto done = makeFolder(arguments.out.parent_path()); !done) return done;
-  }
-  if (isBuiltin(arguments.to)) {
-    design.models.front().reference = arguments.to;
-  } else {
-    std::filesystem::path mesh = arguments.out, names = arguments.out;
-    mesh.replace_extension(".ply");
-    names.replace_extension(".model.json");
-    const ReferenceModel& model = *transfer.document.model;
-    if (auto done = writeFileWhole(mesh, writePly(*model.mesh)); !done) return done;
-    const std::string text = writeModelFile(model, mesh.filename().string());
-    if (auto done = writeFileWhole(names, text); !done) return done;
-    design.models.front().reference = names.filename().string();
-  }
-  return writeFileWhole(arguments.out, writeDesign(design));
-}
-
 int run(Arguments arguments, const Session& session) {
   TerminalProgress progress;
   const Result<Document> document = openDocument(arguments.design, std::nullopt, session.units);
@@ -83,7 +61,13 @@ int run(Arguments arguments, const Session& session) {
       carryToModel(*document, std::make_shared<const ReferenceModel>(*std::move(target)),
                    arguments.options, &progress);
   if (!carried) return fail(carried.error());
-  if (const auto done = write(carried->transfer, arguments); !done) return fail(done.error());
+  const Document& made = carried->transfer.document;
+  if (const auto done = isBuiltin(arguments.to)
+                            ? writeDesignFor(*made.design, arguments.to, arguments.out)
+                            : writeDesignAndModel(made, arguments.out);
+      !done) {
+    return fail(done.error());
+  }
   const std::string reportText = writeTransferReport(carried->transfer);
   if (arguments.reportFile) {
     const auto done = writeFileWhole(*arguments.reportFile, reportText);

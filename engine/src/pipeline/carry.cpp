@@ -96,18 +96,17 @@ std::vector<Finding> findingsOf(const Scan& scan, const Fit& fit) {
   return findings;
 }
 
-Result<Fit> fitOwnModel(const Document& document, const Scan& scan, const CarryOptions& options,
-                        Progress* progress) {
+Result<Fit> fitWithFamily(const ReferenceModel& model, const Scan& scan, FitOptions fitting,
+                          Progress* progress) {
   if (progress != nullptr) progress->step("fit the model to " + scan.name);
-  FitOptions fitting = options.fit;
   fitting.limits.strayShare = std::max(fitting.limits.strayShare, Ratio::of(kStrayShare));
   fitting.limits.missingShare = std::max(fitting.limits.missingShare, Ratio::of(kMissingShare));
   const auto& family = builtinFamily();
   if (fitting.family.empty() &&
-      document.model->mesh->connectivityHash() == family.front()->connectivityHash()) {
+      model.mesh->connectivityHash() == family.front()->connectivityHash()) {
     fitting.family = family;
   }
-  Result<Fit> fit = fitTemplate(*document.model, scan, fitting, progress);
+  Result<Fit> fit = fitTemplate(model, scan, fitting, progress);
   if (!fit) return fit.error();
   if (!fit->report.isOk()) return missedLimits(*fit, scan.name);
   return fit;
@@ -124,9 +123,24 @@ const std::vector<std::shared_ptr<const Mesh>>& builtinFamily() {
   return family;
 }
 
+Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceModel& target,
+                                const FitOptions& options, Progress* progress) {
+  if (model.mesh->connectivityHash() == target.mesh->connectivityHash()) {
+    Result<Correspondence> map = Correspondence::onOneConnectivity(model.index, target.index);
+    if (!map) return map.error();
+    return MappedModels{*std::move(map), std::nullopt};
+  }
+  Result<Fit> fit = fitWithFamily(model, makeScan(target.name, *target.mesh), options, progress);
+  if (!fit) return fit.error();
+  Result<Correspondence> map =
+      Correspondence::throughFit(model.index, fit->model.index, target.index);
+  if (!map) return map.error();
+  return MappedModels{*std::move(map), *std::move(fit)};
+}
+
 Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
                                   const CarryOptions& options, Progress* progress) {
-  Result<Fit> fit = fitOwnModel(document, scan, options, progress);
+  Result<Fit> fit = fitWithFamily(*document.model, scan, options.fit, progress);
   if (!fit) return fit.error();
   const auto target = std::make_shared<const ReferenceModel>(fit->model);
   const auto map = Correspondence::onOneConnectivity(document.model->index, target->index);
@@ -141,23 +155,12 @@ Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
 Result<CarriedDesign> carryToModel(const Document& document,
                                    const std::shared_ptr<const ReferenceModel>& target,
                                    const CarryOptions& options, Progress* progress) {
-  CarriedDesign carried;
-  Result<Correspondence> map = [&]() -> Result<Correspondence> {
-    if (document.model->mesh->connectivityHash() == target->mesh->connectivityHash()) {
-      return Correspondence::onOneConnectivity(document.model->index, target->index);
-    }
-    Result<Fit> fit =
-        fitOwnModel(document, makeScan(target->name, *target->mesh), options, progress);
-    if (!fit) return fit.error();
-    carried.fit = *std::move(fit);
-    return Correspondence::throughFit(document.model->index, carried.fit->model.index,
-                                      target->index);
-  }();
-  if (!map) return map.error();
-  Result<Transfer> transfer = transferDesign(document, target, *map, options.transfer, progress);
+  Result<MappedModels> mapped = mapToModel(*document.model, *target, options.fit, progress);
+  if (!mapped) return mapped.error();
+  Result<Transfer> transfer =
+      transferDesign(document, target, mapped->map, options.transfer, progress);
   if (!transfer) return transfer.error();
-  carried.transfer = *std::move(transfer);
-  return carried;
+  return CarriedDesign{*std::move(transfer), std::move(mapped->fit)};
 }
 
 }  // namespace toile

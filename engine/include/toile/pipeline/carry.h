@@ -28,6 +28,18 @@ struct CarriedDesign {
 /// the connectivity of builtin:body@1. Made once for a process.
 const std::vector<std::shared_ptr<const Mesh>>& builtinFamily();
 
+/// The map from model to model.
+struct MappedModels {
+  Correspondence map;
+  std::optional<Fit> fit;  ///< nothing where they have one connectivity
+};
+
+/// Exact between models of one connectivity; otherwise the first is fitted to the other.
+/// @return NotConverged when the fit misses its limits, with the reasons; the errors of
+///   fitTemplate().
+Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceModel& target,
+                                const FitOptions& options = {}, Progress* progress = nullptr);
+
 /// Fits the design's model to a scan and carries the design over to the fitted shape: closed, on
 /// the connectivity that the design knows, without the scan's holes and noise. The findings begin
 /// with those of the scan, and maybe-mirrored where its faces look inward.
