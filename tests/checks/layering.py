@@ -15,8 +15,8 @@ import sys
 import tempfile
 
 # The order of docs/architecture.md. `pipeline` is engine/include/toile/pipeline.h and its source.
-TOPICS = ("core mesh curve model design edit cut unfold develop finish layout fit transfer body scan "
-          "shape sew render io pipeline batch").split()
+TOPICS = ("core mesh curve model design edit cut unfold develop finish layout fit transfer warp body "
+          "scan shape sew render io pipeline batch").split()
 ORDER = {topic: i for i, topic in enumerate(TOPICS)}
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*[<"]([^>"]+)[>"]')
