@@ -20,6 +20,7 @@ void addCheckSewing(CLI::App& app, Session& session);
 void addMap(CLI::App& app, Session& session);
 void addNest(CLI::App& app, Session& session);
 void addTransfer(CLI::App& app, Session& session);
+void addWarp(CLI::App& app, Session& session);
 void addBatch(CLI::App& app, Session& session);
 void addGrade(CLI::App& app, Session& session);
 

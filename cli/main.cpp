@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The `toile` command. Results go to stdout, everything for people to stderr.
 #include <algorithm>
-#include <array>
 #include <charconv>
 #include <cstdio>
 #include <exception>
@@ -18,10 +17,6 @@ namespace toile::cli {
 namespace {
 
 constexpr std::size_t kMaxThreads = 1024;
-
-// Sub-commands that design.md promises but that this version does not have: asking for one is
-// answered by name, not by a guess at the spelling.
-constexpr std::array kLaterCommands = {"warp"};
 
 void addCommonOptions(CLI::App& app, Session& session) {
   app.set_help_flag("-h,--help", "Print this help");
@@ -80,9 +75,6 @@ std::string explainUnknown(const CLI::App& app) {
   const bool hasCommand = !app.get_subcommands().empty();
   if (!hasCommand && !words.empty() && option != words.begin()) {
     const std::string& word = words.front();
-    if (std::ranges::find(kLaterCommands, word) != kLaterCommands.end()) {
-      return "\"" + word + "\" is not part of this version yet; `toile --help` lists what is";
-    }
     return "there is no command \"" + word + "\"" + suggestion(word, commandNames(app));
   }
   if (option != words.end()) {
@@ -121,6 +113,7 @@ int runProgram(int argc, char** argv) {
   addMap(app, session);
   addNest(app, session);
   addTransfer(app, session);
+  addWarp(app, session);
   addBatch(app, session);
   addGrade(app, session);
   app.require_subcommand(0, 1);

@@ -59,6 +59,22 @@ CLI::Option* addParsed(CLI::App& command, const std::string& name, Target& targe
       help);
 }
 
+/// The same for an option that may be given often.
+template <class T>
+CLI::Option* addParsedList(CLI::App& command, const std::string& name, std::vector<T>& target,
+                           Result<T> (*parse)(std::string_view), const std::string& help) {
+  return command.add_option_function<std::vector<std::string>>(
+      name,
+      [&target, parse, name](const std::vector<std::string>& texts) {
+        for (const std::string& text : texts) {
+          Result<T> value = parse(text);
+          if (!value) throw CLI::ValidationError(name + ": " + value.error().message);
+          target.push_back(*std::move(value));
+        }
+      },
+      help);
+}
+
 /// Prints `toile: <sentence>` on stderr. @return kFailed
 int fail(const Error& error);
 /// Prints every finding on stderr. @return kFailed with --strict and at least one, otherwise kDone
