@@ -4,6 +4,7 @@
 #include <Eigen/Geometry>
 
 #include "toile/curve/geodesic.h"
+#include "toile/model/guiding_map.h"
 
 namespace toile {
 
@@ -61,6 +62,20 @@ Result<SurfacePath> carryPath(const ReferenceModel& target, const Correspondence
   return linker.linkAll(points, path.closed);
 }
 
+/// The names' own guiding map on the target's faces.
+std::shared_ptr<GuidingMapSlot> carryMap(const ReferenceModel& names, const ReferenceModel& target,
+                                         const Correspondence& map) {
+  const Mesh& mesh = *target.mesh;
+  const bool isSameMesh = names.mesh->connectivityHash() == mesh.connectivityHash();
+  FaceData<FaceId> sourceFace(mesh.faceCount());
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const FaceId face(f);
+    const SurfacePoint middle{SurfacePoint::InFace{face, Eigen::Vector3d::Constant(1.0 / 3)}};
+    sourceFace[face] = isSameMesh ? face : facesOf(*names.mesh, map.toA(middle)).front();
+  }
+  return std::make_shared<GuidingMapSlot>(carryGuidingMap(*guidingMap(names), target, sourceFace));
+}
+
 }  // namespace
 
 Result<ReferenceModel> carryNames(const ReferenceModel& names, const ReferenceModel& target,
@@ -89,6 +104,8 @@ Result<ReferenceModel> carryNames(const ReferenceModel& names, const ReferenceMo
       model.symmetry = carryPlane(names, target, map);
     }
   }
+  const bool hasMap = model.map && model.map->isGiven();
+  if (names.map && names.map->isGiven() && !hasMap) model.map = carryMap(names, model, map);
   return model;
 }
 

@@ -7,7 +7,7 @@
 namespace toile {
 
 /// Gives a model the names of another: feature curves point by point and linked again, landmarks,
-/// and left and right. Names that the target has already are kept.
+/// left and right, and the guiding map where one is given. What the target has already is kept.
 ///
 /// On one connectivity the curves are the same faces and weights, and the pairing of vertices goes
 /// along. On another the mirror plane is the one that fits the images of paired vertices best, and
