@@ -61,9 +61,8 @@ TEST(BadInput, ALineThatCrossesAnotherWithoutANodeIsNamed) {
 // Two of a triangle's sides together are shorter than its third: no lengths of the plane.
 TEST(BadInput, LengthsThatContradictEachOtherAreNamed) {
   const Mesh mesh = test::grid(4, 4);
-  Piece piece = test::patchOf(mesh, {{"wire_feature_a", {6, 7}},
-                                     {"wire_feature_b", {7, 12}},
-                                     {"wire_feature_c", {6, 12}}});
+  Piece piece = test::patchOf(
+      mesh, {{"wire_feature_a", {6, 7}}, {"wire_feature_b", {7, 12}}, {"wire_feature_c", {6, 12}}});
   for (Wire& wire : piece.wires) {
     if (wire.curve == "c") wire.targetLength[0] *= 3;
   }
@@ -91,8 +90,7 @@ TEST(BadInput, AnEmptyFileIsRefused) {
   std::filesystem::remove(path);
   ASSERT_FALSE(file);
   EXPECT_EQ(file.error().code, ErrorCode::FileFormat);
-  EXPECT_NE(file.error().message.find(path.filename().string()), std::string::npos)
-      << file.error();
+  EXPECT_NE(file.error().message.find(path.filename().string()), std::string::npos) << file.error();
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include "support/meshes.h"
 #include "support/patches.h"
 #include "support/result_printing.h"
+#include "unfold/least_strain.h"
 #include "unfold/sparse_factor.h"
 #include "unfold/start.h"
 #include "unfold/strain_energy.h"
@@ -200,6 +201,32 @@ TEST(Start, TheCircleFlipsNothingAlsoAroundAHole) {
   const std::optional<Plane> start = circleStart(problem);
   ASSERT_TRUE(start.has_value());
   EXPECT_EQ(flippedCount(problem, *start), 0U);
+}
+
+// A cap has a conformal map with the rim's lengths: onto the disk of that circumference.
+TEST(Start, BoundaryFirstIsConformalWithTheBordersLengths) {
+  const Mesh mesh = test::heightField(24, 24, 5, [](double x, double y) {
+    return std::sqrt(200.0 * 200 - (x - 60) * (x - 60) - (y - 60) * (y - 60));
+  });
+  const Problem problem = *makeProblem(test::patchOf(mesh));
+  const BlockPattern pattern = couplingsOf(problem);
+  const auto start =
+      boundaryFirstStart(problem, pattern, std::make_shared<const Elimination>(pattern));
+  ASSERT_TRUE(start.has_value());
+  EXPECT_EQ(flippedCount(problem, *start), 0U);
+  for (const WireEdge& edge : problem.wireEdges) {
+    EXPECT_NEAR((at(*start, edge.a) - at(*start, edge.b)).norm(), edge.target, 0.01 * edge.target);
+  }
+  double skew = 0;
+  for (const RestTriangle& t : problem.triangles) {
+    const auto [s1, s2] = singularValues(mapOf(t, *start));
+    skew += (s1 / s2 - 1) * t.area / problem.area;
+  }
+  EXPECT_LT(skew, 0.02);  // of the mesh's coarseness
+  const Problem ring =
+      *makeProblem(test::patchOf(test::ring(60, 140, 32, 6, [](double, double) { return 0.0; })));
+  const BlockPattern other = couplingsOf(ring);
+  EXPECT_FALSE(boundaryFirstStart(ring, other, std::make_shared<const Elimination>(other)));
 }
 
 }  // namespace
