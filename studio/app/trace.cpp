@@ -61,7 +61,8 @@ bool Trace::eventFilter(QObject* watched, QEvent* event) {
       paintedFrom_ = clockNow();
     }
     // Widgets that wait for it are painted and given to the window system in one go; then this.
-    QMetaObject::invokeMethod(this, &Trace::shown, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        this, [this] { shown(); }, Qt::QueuedConnection);
     return false;
   }
   if (watched != &viewport_) return false;

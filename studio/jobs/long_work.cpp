@@ -51,12 +51,14 @@ std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
       fault = thrown.what();
     }
     ended = true;
-    QMetaObject::invokeMethod(&silent, &QEventLoop::quit, Qt::QueuedConnection);
-    QMetaObject::invokeMethod(&open, &QEventLoop::quit, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        &silent, [&silent] { silent.quit(); }, Qt::QueuedConnection);
+    QMetaObject::invokeMethod(
+        &open, [&open] { open.quit(); }, Qt::QueuedConnection);
   });
   // Short work shows nothing, and nothing can be done meanwhile that it would not expect.
   QApplication::setOverrideCursor(Qt::WaitCursor);
-  QTimer::singleShot(kSilence, &silent, &QEventLoop::quit);
+  QTimer::singleShot(kSilence, &silent, [&silent] { silent.quit(); });
   silent.exec(QEventLoop::ExcludeUserInputEvents);
   QApplication::restoreOverrideCursor();
   if (!ended) {

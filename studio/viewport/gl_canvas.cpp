@@ -12,7 +12,7 @@ GlCanvas::GlCanvas(QWidget* parent) : QWidget(parent) {
 }
 
 GlCanvas::~GlCanvas() {
-  if (!isMade_ || !makeCurrent()) return;
+  if (!isMade_ || !context_.makeCurrent(&surface_)) return;
   target_.reset();
   doneCurrent();
 }
