@@ -66,22 +66,33 @@ QFormLayout* addForm(QVBoxLayout& column) {
   return form;
 }
 
-/// The runs of a curve in the pattern: each with its piece, wire and length.
-struct Run {
+/// A side of a line in the pattern, with its piece; parts of one piece's side are added up.
+struct SeamSideRow {
   QString piece;
   double length = 0;
-  double target = 0;
 };
-std::vector<Run> runsOf(const Pattern& pattern, const std::string& curve) {
-  std::vector<Run> runs;
-  for (const PatternPiece& piece : pattern.pieces) {
-    Run sum{QString::fromStdString(piece.name.empty() ? piece.id : piece.name), 0, 0};
+/// The sides of a curve in the pattern: of a seam its two pieces, of a dart or the seam of a tube
+/// both edges of the one piece, which are sewn to each other.
+std::vector<SeamSideRow> sidesOf(const Pattern& pattern, const std::string& curve) {
+  std::vector<SeamSideRow> sides;
+  for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
+    const PatternPiece& piece = pattern.pieces[i];
+    const QString name = QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
+    const auto isSecondSide = [&](const OutlineRun& run) {
+      return std::ranges::any_of(pattern.cut.mates, [&](const SeamMates& mates) {
+        return mates.pieceA == mates.pieceB && mates.pieceA == pattern.pieceIndex[i] &&
+               mates.wireB == run.wire;
+      });
+    };
+    SeamSideRow first{name, 0}, second{name, 0};
     for (const OutlineRun& run : piece.runs) {
-      if (run.curve == curve) sum.length += run.length;
+      if (run.curve == curve) (isSecondSide(run) ? second : first).length += run.length;
     }
-    if (sum.length > 0) runs.push_back(sum);
+    for (const SeamSideRow& side : {first, second}) {
+      if (side.length > 0) sides.push_back(side);
+    }
   }
-  return runs;
+  return sides;
 }
 
 }  // namespace
@@ -237,7 +248,7 @@ void SelectionPanel::showLine(QVBoxLayout& column, const PlacedLine& line) {
   column.addWidget(headingRow(tr("Lengths"), {}));
   length_ = numberRow(column, tr("Line on the body"), session_.lengthText(line.length()), true);
   if (!session_.pattern()) return;
-  const std::vector<Run> runs = runsOf(*session_.pattern(), id);
+  const std::vector<SeamSideRow> runs = sidesOf(*session_.pattern(), id);
   for (std::size_t i = 0; i < runs.size(); ++i) {
     const QString word = runs.size() == 2 && i == 1 ? tr("Mate %1") : tr("Seam %1");
     numberRow(column, word.arg(runs[i].piece), session_.lengthText(runs[i].length), false);
