@@ -263,8 +263,9 @@ void MainWindow::showPanes(bool body, bool pattern) {
 }
 
 void MainWindow::showStrain(bool on) {
-  viewport_->setColouring(on ? BodyColouring::Strain : BodyColouring::Fabric, StrainMeasure::Area,
-                          0.2, 0);
+  StrainLook look = session_.strainLook();
+  look.on = on;
+  session_.setStrainLook(look);
 }
 
 void MainWindow::showTitle() {

@@ -19,47 +19,17 @@
 
 #include "app/icons.h"
 #include "app/main_window.h"
+#include "app/tool_setting_bar.h"
 #include "panels/lists.h"
 #include "panels/selection_panel.h"
 #include "pattern/pattern_view.h"
 #include "tools/drawing.h"
+#include "tools/tool_info.h"
 #include "viewport/viewport.h"
 
 namespace toile::studio {
 
 namespace {
-
-struct ToolInfo {
-  ToolId id;
-  const char* name;
-  const char* icon;
-  const char* key;
-  int group;
-};
-
-/// The rail, top to bottom.
-constexpr ToolInfo kTools[] = {
-    {ToolId::Select, QT_TRANSLATE_NOOP("Tools", "Select"), "select", "V", 0},
-    {ToolId::Pencil, QT_TRANSLATE_NOOP("Tools", "Pencil"), "pencil", "P", 1},
-    {ToolId::Curve, QT_TRANSLATE_NOOP("Tools", "Curve"), "curve", "C", 1},
-    {ToolId::LeastLength, QT_TRANSLATE_NOOP("Tools", "Least length"), "least-length", "L", 1},
-    {ToolId::Girth, QT_TRANSLATE_NOOP("Tools", "Girth"), "girth", "G", 1},
-    {ToolId::Dart, QT_TRANSLATE_NOOP("Tools", "Dart"), "dart", "D", 1},
-    {ToolId::Trim, QT_TRANSLATE_NOOP("Tools", "Trim"), "trim", "T", 2},
-    {ToolId::Split, QT_TRANSLATE_NOOP("Tools", "Split"), "split", "B", 2},
-    {ToolId::Join, QT_TRANSLATE_NOOP("Tools", "Join"), "join", "J", 2},
-};
-
-const ToolInfo& infoOf(ToolId id) {
-  for (const ToolInfo& info : kTools) {
-    if (info.id == id) return info;
-  }
-  return kTools[0];
-}
-
-QString nameOf(const ToolInfo& info) {
-  return QCoreApplication::translate("Tools", info.name);
-}
 
 constexpr CurveKind kKinds[4] = {CurveKind::Seam, CurveKind::Feature, CurveKind::Elastic,
                                  CurveKind::Opening};
@@ -140,6 +110,22 @@ void MainWindow::makeActions() {
                      [this](bool on) { viewport_->setSeeThrough(on); });
   actions_.addToggle("strain", tr("&Strain"), "strain", QKeySequence("S"),
                      [this](bool on) { showStrain(on); });
+  const std::tuple<const char*, QString, const char*, bool PatternShown::*> shown[] = {
+      {"show-allowance", tr("Seam &allowance"), "allowance", &PatternShown::allowance},
+      {"show-notches", tr("&Notches"), "notch", &PatternShown::notches},
+      {"show-grain", tr("&Grain"), "grain", &PatternShown::grain},
+      {"show-labels", tr("Na&mes"), "label", &PatternShown::labels},
+      {"show-features", tr("Feature &lines"), "fair", &PatternShown::features}};
+  for (const auto& [id, text, icon, member] : shown) {
+    actions_
+        .addToggle(id, text, icon, QKeySequence(),
+                   [this, member = member](bool on) {
+                     PatternShown now = pattern_->shown();
+                     now.*member = on;
+                     pattern_->setShown(now);
+                   })
+        ->setChecked(true);
+  }
   actions_.addToggle("edges", tr("Mesh &edges"), "", QKeySequence("W"),
                      [this](bool on) { viewport_->setEdges(on); });
   actions_.add("fit", tr("&Fit selection"), "fit", QKeySequence("F"),
@@ -177,7 +163,7 @@ void MainWindow::makeActions() {
 
 void MainWindow::makeToolActions() {
   auto* group = new QActionGroup(this);
-  for (const ToolInfo& info : kTools) {
+  for (const ToolInfo& info : allTools()) {
     QAction* action =
         actions_.add(QStringLiteral("tool-") + info.icon, nameOf(info), info.icon,
                      QKeySequence(info.key), [this, id = info.id] { session_.setTool(id); });
@@ -202,8 +188,27 @@ void MainWindow::makeMenus() {
        {"new", "open", "-", "save", "save-as", "export", "-", "quit"});
   fill(menuBar()->addMenu(tr("&Edit")), {"undo", "redo", "-", "name", "delete"});
   QMenu* view = menuBar()->addMenu(tr("&View"));
-  fill(view, {"fit", "fit-all", "straight", "-", "view-front", "view-back", "view-left",
-              "view-right", "view-top", "view-bottom", "-", "see-through", "strain", "edges", "-"});
+  fill(view, {"fit",
+              "fit-all",
+              "straight",
+              "-",
+              "view-front",
+              "view-back",
+              "view-left",
+              "view-right",
+              "view-top",
+              "view-bottom",
+              "-",
+              "see-through",
+              "strain",
+              "edges",
+              "-",
+              "show-allowance",
+              "show-notches",
+              "show-grain",
+              "show-labels",
+              "show-features",
+              "-"});
   QMenu* navigation = view->addMenu(tr("&Navigation"));
   auto* presets = new QActionGroup(this);
   const int chosen = QSettings().value(QStringLiteral("navigation"), 0).toInt();
@@ -222,7 +227,7 @@ void MainWindow::makeMenus() {
     }
   }
   QMenu* line = menuBar()->addMenu(tr("&Line"));
-  for (const ToolInfo& info : kTools)
+  for (const ToolInfo& info : allTools())
     line->addAction(actions_[QStringLiteral("tool-") + info.icon]);
   line->addSeparator();
   fill(line, {"next-kind", "symmetry", "snap"});
@@ -270,6 +275,9 @@ void MainWindow::makeBars() {
     top->addWidget(button);
   }
   actions_["symmetry"]->setIconText(tr("Symmetry"));
+  auto* setting = new ToolSettingBar(session_);
+  connect(setting, &ToolSettingBar::taken, this, [this] { viewport_->setFocus(); });
+  top->addWidget(setting);
   auto* space = new QWidget;
   space->setSizePolicy(QSizePolicy::Expanding, QSizePolicy::Preferred);
   top->addWidget(space);
@@ -284,7 +292,7 @@ void MainWindow::makeBars() {
   rail->setIconSize({20, 20});
   addToolBar(Qt::LeftToolBarArea, rail);
   int last = 0;
-  for (const ToolInfo& info : kTools) {
+  for (const ToolInfo& info : allTools()) {
     if (info.group != last) rail->addSeparator();
     last = info.group;
     rail->addAction(actions_[QStringLiteral("tool-") + info.icon]);
@@ -399,7 +407,8 @@ void MainWindow::showContextMenu(const QPoint& place) {
   menu.addAction(actions_["undo"]);
   menu.addAction(actions_["redo"]);
   menu.addSeparator();
-  for (const ToolInfo& info : kTools) menu.addAction(actions_[QStringLiteral("tool-") + info.icon]);
+  for (const ToolInfo& info : allTools())
+    menu.addAction(actions_[QStringLiteral("tool-") + info.icon]);
   menu.exec(place);
 }
 

@@ -9,6 +9,7 @@
 #include <cmath>
 
 #include "app/actions.h"
+#include "panels/strain_legend.h"
 #include "pattern/pattern_view.h"
 #include "viewport/view_cube.h"
 #include "viewport/viewport.h"
@@ -88,6 +89,12 @@ void addPaneCorners(Viewport& viewport, PatternView& pattern, Session& session, 
   auto* cube = new ViewCube(viewport);
   new Corner(viewport, *cube, Qt::TopRightCorner, {12, 10});
   addButtons(viewport, {20, 74}, {actions["fit"], actions["see-through"], actions["strain"]});
+
+  auto* legend = new StrainLegend(session, &viewport);
+  new Corner(viewport, *legend, Qt::BottomLeftCorner, {10, 10});
+  addButtons(pattern, {12, 32},
+             {actions["show-allowance"], actions["show-notches"], actions["show-grain"],
+              actions["show-labels"], actions["show-features"]});
 
   QLabel* sheet = addChip(pattern, {32, 32});
   const auto showScale = [sheet, &pattern] {

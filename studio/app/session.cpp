@@ -5,36 +5,9 @@
 
 #include "document/design_store.h"
 #include "tools/picking.h"
+#include "tools/tool_info.h"
 
 namespace toile::studio {
-
-namespace {
-
-QString toolIcon(ToolId id) {
-  switch (id) {
-    case ToolId::Select:
-      return QStringLiteral("select");
-    case ToolId::Pencil:
-      return QStringLiteral("pencil");
-    case ToolId::Curve:
-      return QStringLiteral("curve");
-    case ToolId::LeastLength:
-      return QStringLiteral("least-length");
-    case ToolId::Girth:
-      return QStringLiteral("girth");
-    case ToolId::Dart:
-      return QStringLiteral("dart");
-    case ToolId::Trim:
-      return QStringLiteral("trim");
-    case ToolId::Split:
-      return QStringLiteral("split");
-    case ToolId::Join:
-      return QStringLiteral("join");
-  }
-  return {};
-}
-
-}  // namespace
 
 Session::Session(QObject* parent) : QObject(parent), tool_(makeTool(ToolId::Select)) {
   connect(&worker_, &PatternWorker::answered, this, &Session::take);
@@ -52,6 +25,8 @@ void Session::start(const Document& document, const std::filesystem::path& path,
   preview_.reset();
   selection_ = hover_ = {};
   pattern_.reset();
+  fullPattern_.reset();
+  strains_.reset();
   pieces_.reset();
   pieceIds_.clear();
   patternError_.reset();
@@ -199,6 +174,31 @@ bool Session::key(ToolKey key) {
   return taken;
 }
 
+void Session::setToolSetting(double value) {
+  tool_->set(value, *this);
+  Q_EMIT toolMoved();
+}
+
+void Session::setStrainLook(const StrainLook& look) {
+  if (look == strainLook_) return;
+  strainLook_ = look;
+  Q_EMIT strainChanged();
+}
+
+std::optional<double> Session::strainLimit() const {
+  std::optional<double> least;
+  if (!strains_) return least;
+  for (const auto& piece : *strains_) {
+    const auto limit = piece ? piece->limits.of(strainLook_.kind) : std::nullopt;
+    if (limit && (!least || *limit < *least)) least = limit;
+  }
+  return least;
+}
+
+void Session::showPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {
+  Q_EMIT placeWanted(place, normal);
+}
+
 void Session::setHover(const Selection& hover) {
   if (hover == hover_) return;
   hover_ = hover;
@@ -237,7 +237,8 @@ void Session::dropPreview() {
 
 void Session::commit(const QString& name, const Document& document) {
   preview_.reset();
-  history_->push({name, toolIcon(tool_->id()), document, QDateTime::currentDateTime()});
+  history_->push({name, QString::fromLatin1(infoOf(tool_->id()).icon), document,
+                  QDateTime::currentDateTime()});
   patternIsCurrent_ = false;
   showDocument(document);
   Q_EMIT historyChanged();
@@ -255,6 +256,8 @@ void Session::take(const PatternAnswer& answer) {
     pattern_ = answer.pattern;
     patternIsPreview_ = answer.isPreview;
     if (!answer.isPreview) {
+      fullPattern_ = pattern_;
+      strains_ = answer.strains;
       pieces_ = std::make_unique<PieceFinder>(pattern_);
       pieceIds_.clear();
       for (const Piece& piece : pattern_->cut.pieces) pieceIds_.push_back(piece.id);

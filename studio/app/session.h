@@ -15,6 +15,14 @@
 
 namespace toile::studio {
 
+/// How strain is shown, in both panes alike.
+struct StrainLook {
+  bool on = false;
+  StrainKind kind = StrainKind::Area;
+  double scale = 0.2;  ///< end of the colours, either way
+  friend bool operator==(const StrainLook&, const StrainLook&) = default;
+};
+
 /// One work: document, history, selection, tool and live pattern. What windows show, they read
 /// from here, and they hear of changes by signals; they hold no state of the work themselves.
 class Session final : public QObject, public ToolHost {
@@ -56,6 +64,16 @@ class Session final : public QObject, public ToolHost {
   [[nodiscard]] bool isPatternPreview() const { return patternIsPreview_; }
   [[nodiscard]] const std::optional<Error>& patternError() const { return patternError_; }
   [[nodiscard]] PatternWorker& worker() { return worker_; }
+  /// Of the last full pattern, parallel to its pieces; null before the first.
+  [[nodiscard]] const Strains& strains() const { return strains_; }
+  /// The full pattern that strains() is of.
+  [[nodiscard]] const std::shared_ptr<const Pattern>& fullPattern() const { return fullPattern_; }
+  void setStrainLook(const StrainLook& look);
+  [[nodiscard]] const StrainLook& strainLook() const { return strainLook_; }
+  /// The least that a fabric of the pattern bears of the kind shown; nothing where none says.
+  [[nodiscard]] std::optional<double> strainLimit() const;
+  /// Leads the eye to a place of the body.
+  void showPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
 
   // ---- tools
   void setTool(ToolId id);
@@ -68,6 +86,7 @@ class Session final : public QObject, public ToolHost {
   /// An event for the tool; everything that shows tools is told.
   void pointer(PointerAction action, const PointerEvent& event);
   bool key(ToolKey key);
+  void setToolSetting(double value);
   void setHover(const Selection& hover);  ///< of the pattern; the body's comes from the tool
   [[nodiscard]] const Selection& hover() const { return hover_; }
 
@@ -99,6 +118,8 @@ class Session final : public QObject, public ToolHost {
   void toolChanged();  ///< another tool, or other options
   void toolMoved();    ///< hint, overlay or cursor may be others
   void hoverChanged();
+  void strainChanged();
+  void placeWanted(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
   void told(const QString& sentence);
 
  private:
@@ -122,6 +143,9 @@ class Session final : public QObject, public ToolHost {
 
   PatternWorker worker_;
   std::shared_ptr<const Pattern> pattern_;
+  std::shared_ptr<const Pattern> fullPattern_;
+  Strains strains_;
+  StrainLook strainLook_;
   std::unique_ptr<PieceFinder> pieces_;  ///< of the last full pattern
   std::vector<std::string> pieceIds_;    ///< of the same
   std::optional<Error> patternError_;

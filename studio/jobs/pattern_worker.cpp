@@ -118,6 +118,8 @@ PatternAnswer PatternWorker::answerOf(const Question& question, Progress& progre
           }
         }
         lastFull_ = result.pattern;
+        result.strains = std::make_shared<const std::vector<std::optional<PieceStrain>>>(
+            measureStrains(*result.pattern));
       }
     } else {
       result.error = made.error();

@@ -13,6 +13,9 @@
 
 namespace toile::studio {
 
+/// The strain of every piece, parallel to Pattern::cut.pieces.
+using Strains = std::shared_ptr<const std::vector<std::optional<PieceStrain>>>;
+
 /// What came of a document.
 struct PatternAnswer {
   std::uint64_t request = 0;
@@ -20,6 +23,7 @@ struct PatternAnswer {
   Document document;  ///< that was asked about
   /// Null where nothing could be made; then `error` says why.
   std::shared_ptr<const Pattern> pattern;
+  Strains strains;  ///< of a full answer
   std::optional<Error> error;
   /// The same document with its piece records moved after their pieces; null if none moved.
   std::shared_ptr<const Design> followed;

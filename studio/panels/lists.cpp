@@ -5,6 +5,7 @@
 
 #include "app/icons.h"
 #include "app/palette.h"
+#include "document/strain_spots.h"
 
 namespace toile::studio {
 
@@ -12,6 +13,7 @@ namespace {
 
 constexpr int kId = Qt::UserRole;
 constexpr int kIsLine = Qt::UserRole + 1;
+constexpr int kSpot = Qt::UserRole + 2;  // number of a place of strain
 
 QString nameOf(const Piece& piece) {
   return QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
@@ -83,7 +85,15 @@ FindingsList::FindingsList(Session& session, QWidget* parent)
     const std::string id = item->data(kId).toString().toStdString();
     if (id.empty()) return;
     session_.select(item->data(kIsLine).toBool() ? Selection::line(id) : Selection::piece(id));
+    const int number = item->data(kSpot).toInt();
+    const auto& pattern = session_.fullPattern();
+    if (number == 0 || !pattern || !session_.strains()) return;
+    for (const PlacedSpot& spot :
+         worstSpots(*pattern, *session_.strains(), session_.strainLook().kind)) {
+      if (spot.number == number) session_.showPlace(spot.place, spot.normal);
+    }
   });
+  connect(&session, &Session::strainChanged, this, &FindingsList::refill);
 }
 
 void FindingsList::add(const QString& iconName, const QColor& colour, const QString& text,
@@ -94,6 +104,26 @@ void FindingsList::add(const QString& iconName, const QColor& colour, const QStr
     item->setData(kId, QString::fromStdString(element.name));
     item->setData(kIsLine, element.kind == Element::Kind::Curve);
     break;
+  }
+}
+
+/// The worst places of strain, numbered as in both panes.
+void FindingsList::addSpots() {
+  const auto& pattern = session_.fullPattern();
+  if (!pattern || !session_.strains()) return;
+  for (const PlacedSpot& spot :
+       worstSpots(*pattern, *session_.strains(), session_.strainLook().kind)) {
+    const Piece& piece = pattern->cut.pieces[spot.piece];
+    const QString what = QString::fromStdString(describe(spot.spot));
+    const QString where = QString::fromStdString(spot.spot.place);
+    const Palette& colours = studio::palette();
+    auto* item = new QListWidgetItem(
+        spot.isOverLimit ? icon(QStringLiteral("warn"), colours.trouble)
+                         : icon(QStringLiteral("strain"), colours.second),
+        QStringLiteral("%1  %2: %3, %4").arg(spot.number).arg(nameOf(piece), what, where), this);
+    item->setData(kId, QString::fromStdString(piece.id));
+    item->setData(kIsLine, false);
+    item->setData(kSpot, spot.number);
   }
 }
 
@@ -120,6 +150,7 @@ void FindingsList::refill() {
     }
   }
   const int found = count();
+  if (session_.strainLook().on) addSpots();
   if (found == 0 && mates > 0) {
     add(QStringLiteral("ok"), colours.good,
         tr("No findings. All %n seams match their mates.", nullptr, mates), {});

@@ -37,6 +37,7 @@ class FindingsList final : public QListWidget {
   void refill();
   void add(const QString& iconName, const QColor& colour, const QString& text,
            const std::vector<Element>& where);
+  void addSpots();
   Session& session_;
 };
 

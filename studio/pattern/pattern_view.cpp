@@ -7,47 +7,19 @@
 #include <cmath>
 
 #include "app/palette.h"
+#include "document/sheet_edits.h"
+#include "viewport/body_vertices.h"
+#include "viewport/overlay_painter.h"
 
 namespace toile::studio {
 
 namespace {
 
-constexpr double kRuler = 22;     // px
-constexpr double kLineCatch = 8;  // px
-constexpr double kClick = 4;      // px that a click may move
-
-QPointF point(const Eigen::Vector2d& p) {
-  return {p.x(), p.y()};
-}
-
-QPainterPath pathOf(const std::vector<Outline>& outlines, const Placement& placement) {
-  QPainterPath path;
-  for (const Outline& outline : outlines) {
-    QPolygonF polygon;
-    for (const OutlinePoint& p : outline) polygon << point(placement.apply(p.position));
-    if (polygon.isEmpty()) continue;
-    path.addPolygon(polygon);
-    path.closeSubpath();
-  }
-  return path;
-}
-
-CurveKind kindOf(WireKind kind) {
-  switch (kind) {
-    case WireKind::Opening:
-      return CurveKind::Opening;
-    case WireKind::Dart:
-      return CurveKind::Dart;
-    case WireKind::Feature:
-      return CurveKind::Feature;
-    case WireKind::Elastic:
-      return CurveKind::Elastic;
-    case WireKind::Seam:
-    case WireKind::Border:
-      return CurveKind::Seam;
-  }
-  return CurveKind::Seam;
-}
+constexpr double kLineCatch = 8;    // px
+constexpr double kHandleCatch = 9;  // px
+constexpr double kClick = 4;        // px that a click may move
+constexpr double kTurnSnap = 2;     // degrees to a multiple of kTurnStep
+constexpr double kTurnStep = 15;
 
 double distanceTo(const QPolygonF& line, const QPointF& p) {
   double best = 1e9;
@@ -62,6 +34,10 @@ double distanceTo(const QPolygonF& line, const QPointF& p) {
   return best;
 }
 
+bool isNear(const QPointF& a, const QPointF& b, double within) {
+  return std::hypot(a.x() - b.x(), a.y() - b.y()) <= within;
+}
+
 }  // namespace
 
 PatternView::PatternView(Session& session, QWidget* parent) : QWidget(parent), session_(session) {
@@ -73,233 +49,103 @@ PatternView::PatternView(Session& session, QWidget* parent) : QWidget(parent), s
   connect(&session, &Session::patternChanged, this, &PatternView::takePattern);
   connect(&session, &Session::selectionChanged, this, [this] { update(); });
   connect(&session, &Session::hoverChanged, this, [this] { update(); });
+  connect(&session, &Session::strainChanged, this, [this] {
+    colour();
+    update();
+  });
+  connect(&session, &Session::toolChanged, this, [this] {
+    measured_.clear();
+    setCursor(session_.tool().id() == ToolId::Measure ? Qt::CrossCursor : Qt::ArrowCursor);
+    update();
+  });
+}
+
+void PatternView::setShown(const PatternShown& shown) {
+  shown_ = shown;
+  update();
 }
 
 void PatternView::takePattern() {
   pieces_.clear();
   box_ = {};
   if (const auto pattern = session_.pattern()) {
-    for (std::size_t i = 0; i < pattern->pieces.size(); ++i) {
-      const PatternPiece& piece = pattern->pieces[i];
-      const Placement& placement = pattern->layout.placements[i];
-      Drawn drawn;
-      drawn.id = piece.id;
-      drawn.name = QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
-      drawn.sew = pathOf(piece.sewLines, placement);
-      drawn.cut = pathOf(piece.cutLines, placement);
-      for (const OutlineRun& run : piece.runs) {
-        const Outline& loop = piece.sewLines[run.loop];
-        Run line{run.curve, {}, kindOf(run.kind)};
-        for (std::size_t k = 0; k <= run.edgeCount; ++k) {
-          line.points << point(placement.apply(loop[(run.first + k) % loop.size()].position));
-        }
-        drawn.runs.push_back(std::move(line));
-      }
-      for (const InternalLine& inner : piece.internalLines) {
-        Run line{inner.curve, {}, inner.kind};
-        for (const auto& p : inner.points) line.points << point(placement.apply(p));
-        if (inner.closed && !line.points.isEmpty()) line.points << line.points.first();
-        drawn.inner.push_back(std::move(line));
-      }
-      for (const Notch& notch : piece.notches) {
-        const auto from = placement.apply(notch.position);
-        const auto to = placement.apply(notch.position + notch.depth * notch.direction);
-        drawn.notches.emplace_back(point(from), point(to));
-      }
-      drawn.grain = {point(placement.apply(piece.grain[0])),
-                     point(placement.apply(piece.grain[1]))};
-      drawn.label = point(placement.apply(piece.labelPosition));
-      if (piece.count != 1) drawn.note = QStringLiteral("× %1").arg(piece.count);
-      box_ = box_.united(drawn.cut.boundingRect());
-      pieces_.push_back(std::move(drawn));
-    }
+    pieces_ = drawPattern(*pattern);
+    for (const DrawnPiece& piece : pieces_) box_ = box_.united(piece.cut.boundingRect());
   }
+  colour();
   if (fitted_) fitAll();
   // A preview at once: an update waits for its turn as long as the mouse keeps moving.
   if (session_.isPatternPreview() && isVisible()) return repaint();
   update();
 }
 
+void PatternView::colour() {
+  const StrainLook& look = session_.strainLook();
+  for (DrawnPiece& piece : pieces_) piece.strain = {};
+  const auto& pattern = session_.pattern();
+  if (!look.on || !pattern || session_.isPatternPreview() || !session_.strains()) return;
+  for (DrawnPiece& piece : pieces_) {
+    const auto& strain = (*session_.strains())[piece.cutIndex];
+    if (!strain) continue;
+    const Mesh& mesh = *pattern->cut.pieces[piece.cutIndex].mesh;
+    paintStrain(piece, *pattern, strainOfVertices(mesh, *strain, look.kind), look.scale,
+                look.kind == StrainKind::Shear);
+  }
+}
+
+const DrawnPiece* PatternView::find(const std::string& id) const {
+  const auto found = std::ranges::find(pieces_, id, &DrawnPiece::id);
+  return found == pieces_.end() ? nullptr : &*found;
+}
+
 void PatternView::fitAll() {
   fitted_ = true;
+  view_.size = size();
   if (box_.isEmpty() || width() < 2 * kRuler) return;
   const double room = 28;
-  scale_ = std::min((width() - kRuler - 2 * room) / box_.width(),
-                    (height() - kRuler - 2 * room) / box_.height());
-  scale_ = std::clamp(scale_, 0.01, 5.0);
-  centre_ = box_.center() - QPointF(kRuler / 2, -kRuler / 2) / scale_;
+  view_.scale = std::min((width() - kRuler - 2 * room) / box_.width(),
+                         (height() - kRuler - 2 * room) / box_.height());
+  view_.scale = std::clamp(view_.scale, 0.01, 5.0);
+  view_.centre = box_.center() - QPointF(kRuler / 2, -kRuler / 2) / view_.scale;
   Q_EMIT scaleChanged();
   update();
 }
 
-QPointF PatternView::toSheet(const QPointF& pixel) const {
-  return {centre_.x() + (pixel.x() - 0.5 * width()) / scale_,
-          centre_.y() - (pixel.y() - 0.5 * height()) / scale_};
-}
-
-QPointF PatternView::toPixel(const QPointF& sheet) const {
-  return {0.5 * width() + (sheet.x() - centre_.x()) * scale_,
-          0.5 * height() - (sheet.y() - centre_.y()) * scale_};
-}
-
 void PatternView::resizeEvent(QResizeEvent*) {
+  view_.size = size();
   if (fitted_) fitAll();
-}
-
-void PatternView::paintGround(QPainter& painter) const {
-  const Palette& colours = studio::palette();
-  painter.fillRect(rect(), colours.sheet);
-  const QPointF low = toSheet({0, double(height())}), high = toSheet({double(width()), 0});
-  const auto lines = [&](double step, const QColor& colour) {
-    painter.setPen(QPen(colour, 1));
-    for (double x = std::ceil(low.x() / step) * step; x < high.x(); x += step) {
-      const double px = std::round(toPixel({x, 0}).x()) + 0.5;
-      painter.drawLine(QPointF(px, 0), QPointF(px, height()));
-    }
-    for (double y = std::ceil(low.y() / step) * step; y < high.y(); y += step) {
-      const double px = std::round(toPixel({0, y}).y()) + 0.5;
-      painter.drawLine(QPointF(0, px), QPointF(width(), px));
-    }
-  };
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  if (scale_ >= 1.2) lines(10, colours.grid);
-  if (scale_ >= 0.08) lines(50, colours.grid);
-  lines(scale_ >= 0.08 ? 100 : 500, colours.gridStrong);
-  painter.setRenderHint(QPainter::Antialiasing, true);
-}
-
-void PatternView::paintRulers(QPainter& painter) const {
-  const Palette& colours = studio::palette();
-  painter.setRenderHint(QPainter::Antialiasing, false);
-  painter.fillRect(QRectF(0, 0, width(), kRuler), colours.panel);
-  painter.fillRect(QRectF(0, 0, kRuler, height()), colours.panel);
-  painter.setPen(colours.divider);
-  painter.drawLine(QPointF(0, kRuler), QPointF(width(), kRuler));
-  painter.drawLine(QPointF(kRuler, 0), QPointF(kRuler, height()));
-  QFont font = painter.font();
-  font.setPixelSize(10);
-  painter.setFont(font);
-  painter.setPen(colours.second);
-  const bool inch = session_.unit() == LengthUnit::Inch;
-  const double unit = inch ? 25.4 : 10;
-  double step = 1;
-  for (const double candidate : {1.0, 2.0, 5.0, 10.0, 20.0, 50.0, 100.0, 200.0}) {
-    step = candidate;
-    if (candidate * unit * scale_ >= 44) break;
-  }
-  const QPointF low = toSheet({0, double(height())}), high = toSheet({double(width()), 0});
-  const double mm = step * unit;
-  for (double x = std::ceil(low.x() / mm) * mm; x < high.x(); x += mm) {
-    const double px = std::round(toPixel({x, 0}).x());
-    if (px < kRuler) continue;
-    painter.drawLine(QPointF(px, kRuler - 6), QPointF(px, kRuler));
-    painter.drawText(QRectF(px - 20, 1, 40, 14), Qt::AlignCenter,
-                     QString::number(std::lround(x / unit)));
-  }
-  for (double y = std::ceil(low.y() / mm) * mm; y < high.y(); y += mm) {
-    const double px = std::round(toPixel({0, y}).y());
-    if (px < kRuler) continue;
-    painter.drawLine(QPointF(kRuler - 6, px), QPointF(kRuler, px));
-    painter.save();
-    painter.translate(8, px);
-    painter.rotate(-90);
-    painter.drawText(QRectF(-20, -7, 40, 14), Qt::AlignCenter,
-                     QString::number(std::lround(y / unit)));
-    painter.restore();
-  }
-  painter.fillRect(QRectF(0, 0, kRuler, kRuler), colours.panel);
-  painter.drawText(QRectF(0, 0, kRuler, kRuler), Qt::AlignCenter,
-                   inch ? QStringLiteral("in") : QStringLiteral("cm"));
-  painter.setRenderHint(QPainter::Antialiasing, true);
-}
-
-void PatternView::paintPiece(QPainter& painter, const Drawn& piece) const {
-  const Palette& colours = studio::palette();
-  QTransform toWindow;
-  toWindow.translate(0.5 * width(), 0.5 * height());
-  toWindow.scale(scale_, -scale_);
-  toWindow.translate(-centre_.x(), -centre_.y());
-  const QPainterPath cut = toWindow.map(piece.cut), sew = toWindow.map(piece.sew);
-
-  const Selection& selected = session_.selection();
-  QColor halo = colours.selection;
-  const bool isSelected = selected.isPiece(piece.id);
-  if (isSelected || session_.hover().isPiece(piece.id)) {
-    halo.setAlphaF(isSelected ? 0.5F : 0.25F);
-    painter.strokePath(sew, QPen(halo, 9, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-  }
-  painter.fillPath(cut, colours.piece);
-  painter.strokePath(cut, QPen(colours.cutLine, 0.8));
-
-  const auto drawRun = [&](const Run& run, double width) {
-    const QPolygonF line = toWindow.map(run.points);
-    const bool picked = selected.isLine(run.curve), hovered = session_.hover().isLine(run.curve);
-    if (picked || hovered) {
-      QColor glow = colours.selection;
-      glow.setAlphaF(picked ? 0.5F : 0.25F);
-      painter.setPen(QPen(glow, 8, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
-      painter.drawPolyline(line);
-    }
-    const LineLook look = lookOf(run.kind);
-    QPen pen(look.onPiece, width, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
-    if (session_.isPatternPreview()) {
-      pen.setDashPattern({5 / width, 3 / width});
-    } else if (look.dots) {
-      pen.setCapStyle(Qt::RoundCap);
-      pen.setDashPattern({0.01, look.dashes[1] / width});
-    } else if (!look.dashes.isEmpty()) {
-      QVector<qreal> dashes;
-      for (const float dash : look.dashes) dashes << dash / width;
-      pen.setDashPattern(dashes);
-    }
-    painter.setPen(pen);
-    painter.drawPolyline(line);
-  };
-  for (const Run& run : piece.inner) drawRun(run, 1.6);
-  for (const Run& run : piece.runs) drawRun(run, 1.8);
-  painter.setPen(QPen(lookOf(CurveKind::Seam).onPiece, 1.1));
-  for (const QLineF& notch : piece.notches) painter.drawLine(toWindow.map(notch));
-
-  const QRectF box = cut.boundingRect();
-  if (box.width() > 40) {
-    painter.setPen(QPen(colours.second, 1.1));
-    const QLineF grain = toWindow.map(piece.grain);
-    painter.drawLine(grain);
-    for (const bool atEnd : {false, true}) {
-      const QPointF tip = atEnd ? grain.p2() : grain.p1();
-      QLineF arm(tip, atEnd ? grain.p1() : grain.p2());
-      arm.setLength(6);
-      for (const double turn : {28.0, -28.0}) {
-        QLineF barb = arm;
-        barb.setAngle(arm.angle() + turn);
-        painter.drawLine(barb);
-      }
-    }
-  }
-  QFont font = painter.font();
-  font.setPixelSize(12);
-  font.setBold(true);
-  painter.setFont(font);
-  // On one line, or a line for each word, where that stays inside of the piece; names that run over
-  // their neighbours could not be told apart. The list and the panel have every name.
-  const QFontMetricsF metrics(font);
-  QString words = piece.name;
-  words.replace(QLatin1Char(' '), QLatin1Char('\n'));
-  for (const QString& text : {piece.name, words}) {
-    QRectF room = metrics.boundingRect(QRectF(0, 0, 1000, 1000), Qt::AlignCenter, text);
-    room.moveCenter(toWindow.map(piece.label));
-    if (!cut.contains(room)) continue;
-    painter.setPen(colours.text);
-    painter.drawText(room.adjusted(-4, -2, 4, 2), Qt::AlignCenter, text);
-    break;
-  }
 }
 
 void PatternView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
-  paintGround(painter);
-  for (const Drawn& piece : pieces_) paintPiece(painter, piece);
+  PatternPainter pattern(painter, view_, session_, shown_);
+  pattern.paintGround();
+  const DrawnPiece* held = gesture_ == Gesture::None ? nullptr : find(held_);
+  for (const DrawnPiece& piece : pieces_) {
+    if (&piece != held) pattern.paintPiece(piece);
+  }
+  if (held != nullptr) {
+    DrawnPiece turned = *held;
+    turned.grain = motion().map(held->grain);
+    pattern.paintPiece(turned);
+  }
+  if (session_.hasWork() && session_.pattern()) {
+    const Selection& selection = session_.selection();
+    if (selection.kind == Selection::Kind::Line) {
+      pattern.paintMates(matesOf(pieces_, *session_.pattern(), selection.id));
+    }
+    const DrawnPiece* selected =
+        selection.kind == Selection::Kind::Piece ? find(selection.id) : nullptr;
+    if (selected != nullptr && gesture_ != Gesture::Grain) pattern.paintHandles(*selected);
+    pattern.paintSpots(pieces_);
+    if (gesture_ == Gesture::Grain) {
+      paintReadOut(painter,
+                   {{tr("grain turned"), QStringLiteral("%1°").arg(turnOfHand(), 0, 'f', 1)}},
+                   lastAt_);
+    }
+  }
+  paintMeasure(painter);
   if (pieces_.empty() && session_.hasWork()) {
     painter.setPen(studio::palette().second);
     const QString text =
@@ -308,16 +154,16 @@ void PatternView::paintEvent(QPaintEvent*) {
             : tr("No piece is closed yet. Lines that run from edge to edge cut a piece.");
     painter.drawText(rect().adjusted(60, 0, -40, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
   }
-  paintRulers(painter);
+  pattern.paintRulers();
 }
 
 Selection PatternView::pick(const QPointF& pixel) const {
-  const QPointF at = toSheet(pixel);
+  const QPointF at = view_.toSheet(pixel);
   Selection best;
-  double nearest = kLineCatch / scale_;
-  for (const Drawn& piece : pieces_) {
+  double nearest = kLineCatch / view_.scale;
+  for (const DrawnPiece& piece : pieces_) {
     for (const auto* runs : {&piece.runs, &piece.inner}) {
-      for (const Run& run : *runs) {
+      for (const DrawnRun& run : *runs) {
         const double distance = distanceTo(run.points, at);
         if (distance >= nearest) continue;
         nearest = distance;
@@ -327,45 +173,190 @@ Selection PatternView::pick(const QPointF& pixel) const {
     }
   }
   if (best.kind != Selection::Kind::None && session_.lines().find(best.id) != nullptr) return best;
-  for (const Drawn& piece : pieces_) {
+  for (const DrawnPiece& piece : pieces_) {
     if (piece.cut.contains(at)) return Selection::piece(piece.id);
   }
   return {};
 }
 
+// ---- hands
+
+PatternView::Gesture PatternView::gestureAt(const QPointF& pixel, const DrawnPiece** piece) const {
+  *piece = nullptr;
+  if (session_.tool().id() == ToolId::Measure || !session_.isPatternCurrent()) return Gesture::Pan;
+  const Selection& selection = session_.selection();
+  if (const DrawnPiece* selected =
+          selection.kind == Selection::Kind::Piece ? find(selection.id) : nullptr) {
+    *piece = selected;
+    for (const QPointF& end : {selected->grain.p1(), selected->grain.p2()}) {
+      if (shown_.grain && isNear(pixel, view_.toPixel(end), kHandleCatch)) return Gesture::Grain;
+    }
+  }
+  *piece = nullptr;
+  return Gesture::Pan;
+}
+
+double PatternView::turnOfHand() const {
+  const DrawnPiece* piece = find(held_);
+  if (piece == nullptr) return 0;
+  const QPointF middle = view_.toPixel(piece->grain.center());
+  const double turn = QLineF(middle, pressedAt_).angleTo(QLineF(middle, lastAt_));
+  const double degrees = std::remainder(turn, 360.0);
+  const double near = std::round(degrees / kTurnStep) * kTurnStep;
+  return std::abs(degrees - near) < kTurnSnap ? near : degrees;
+}
+
+QTransform PatternView::motion() const {
+  const DrawnPiece* piece = find(held_);
+  QTransform motion;
+  if (piece == nullptr || !moved_) return motion;
+  const QPointF middle = piece->grain.center();
+  motion.translate(middle.x(), middle.y());
+  motion.rotate(turnOfHand());
+  motion.translate(-middle.x(), -middle.y());
+  return motion;
+}
+
+void PatternView::finishGesture() {
+  const DrawnPiece* piece = find(held_);
+  const auto& pattern = session_.fullPattern();
+  if (piece == nullptr || !pattern || !session_.isPatternCurrent()) return;
+  const auto made =
+      withGrainTurned(session_.document(), *pattern, piece->id, Angle::degrees(turnOfHand()));
+  if (made) session_.commit(tr("Grain of %1").arg(piece->name), *made);
+}
+
 void PatternView::mousePressEvent(QMouseEvent* event) {
   pressedAt_ = lastAt_ = event->position();
-  panning_ = false;
+  moved_ = false;
+  const DrawnPiece* piece = nullptr;
+  gesture_ =
+      event->button() == Qt::LeftButton ? gestureAt(event->position(), &piece) : Gesture::Pan;
+  held_ = piece == nullptr ? std::string() : piece->id;
 }
 
 void PatternView::mouseMoveEvent(QMouseEvent* event) {
-  if (event->buttons() == Qt::NoButton) return session_.setHover(pick(event->position()));
-  if ((event->position() - pressedAt_).manhattanLength() > kClick) panning_ = true;
-  if (panning_) {
-    const QPointF step = event->position() - lastAt_;
-    centre_ -= QPointF(step.x(), -step.y()) / scale_;
-    fitted_ = false;
-    update();
+  measureAt_ = event->position();
+  if (event->buttons() == Qt::NoButton) {
+    if (session_.tool().id() == ToolId::Measure) update();
+    return session_.setHover(pick(event->position()));
   }
+  if ((event->position() - pressedAt_).manhattanLength() > kClick) moved_ = true;
+  const QPointF step = event->position() - lastAt_;
   lastAt_ = event->position();
+  if (!moved_) return;
+  if (gesture_ == Gesture::Pan) {
+    view_.centre -= QPointF(step.x(), -step.y()) / view_.scale;
+    fitted_ = false;
+  }
+  update();
 }
 
 void PatternView::mouseReleaseEvent(QMouseEvent* event) {
-  if (!panning_ && event->button() == Qt::LeftButton) session_.select(pick(event->position()));
-  panning_ = false;
+  lastAt_ = event->position();
+  if (moved_ && gesture_ == Gesture::Grain) {
+    finishGesture();
+  } else if (!moved_ && event->button() == Qt::LeftButton) {
+    if (session_.tool().id() == ToolId::Measure) {
+      if (measured_.size() == 2) measured_.clear();
+      measured_.push_back(caught(event->position()));
+    } else {
+      session_.select(pick(event->position()));
+    }
+  }
+  gesture_ = Gesture::None;
+  held_.clear();
+  moved_ = false;
+  update();
 }
 
 void PatternView::wheelEvent(QWheelEvent* event) {
-  const QPointF before = toSheet(event->position());
-  scale_ = std::clamp(scale_ * std::pow(1.2, event->angleDelta().y() / 120.0), 0.01, 20.0);
-  centre_ += before - toSheet(event->position());
+  const QPointF before = view_.toSheet(event->position());
+  view_.scale =
+      std::clamp(view_.scale * std::pow(1.2, event->angleDelta().y() / 120.0), 0.01, 20.0);
+  view_.centre += before - view_.toSheet(event->position());
   fitted_ = false;
   Q_EMIT scaleChanged();
   update();
 }
 
+void PatternView::keyPressEvent(QKeyEvent* event) {
+  if (event->key() == Qt::Key_Escape) {
+    if (gesture_ != Gesture::None) {
+      gesture_ = Gesture::None;
+    } else if (!measured_.empty()) {
+      measured_.clear();
+    } else if (session_.tool().id() != ToolId::Select) {
+      session_.setTool(ToolId::Select);
+    } else {
+      session_.select({});
+    }
+    return update();
+  }
+  QWidget::keyPressEvent(event);
+}
+
 void PatternView::leaveEvent(QEvent*) {
   session_.setHover({});
+}
+
+// ---- measuring
+
+QPointF PatternView::caught(const QPointF& pixel) const {
+  QPointF best = view_.toSheet(pixel);
+  double nearest = kLineCatch;
+  const auto offer = [&](const QPointF& place) {
+    const QPointF off = view_.toPixel(place) - pixel;
+    const double distance = std::hypot(off.x(), off.y());
+    if (distance >= nearest) return;
+    nearest = distance;
+    best = place;
+  };
+  for (const DrawnPiece& piece : pieces_) {
+    for (const DrawnRun& run : piece.runs) {
+      if (run.points.isEmpty()) continue;
+      offer(run.points.first());
+      offer(run.points.last());
+    }
+    for (const QLineF& notch : piece.notches) offer(notch.p1());
+  }
+  return best;
+}
+
+void PatternView::paintMeasure(QPainter& painter) const {
+  if (session_.tool().id() != ToolId::Measure) return;
+  const QColor blue = studio::palette().selection;
+  painter.setBrush(Qt::white);
+  const auto mark = [&](const QPointF& place) {
+    painter.setPen(QPen(blue, 2));
+    painter.drawRect(QRectF(view_.toPixel(place) - QPointF(4, 4), QSizeF(8, 8)));
+  };
+  if (measured_.empty()) {
+    if (!underMouse()) return;
+    mark(caught(measureAt_));
+    const Selection below = pick(measureAt_);
+    for (const DrawnPiece& piece : pieces_) {
+      if (piece.id != below.onPiece) continue;
+      double length = 0;
+      for (const auto* runs : {&piece.runs, &piece.inner}) {
+        for (const DrawnRun& run : *runs) length += run.curve == below.id ? run.length : 0;
+      }
+      paintReadOut(painter, {{piece.name, session_.lengthText(length)}}, measureAt_);
+    }
+    return;
+  }
+  const QPointF from = measured_.front();
+  const QPointF to = measured_.size() == 2 ? measured_.back() : caught(measureAt_);
+  painter.setPen(QPen(blue, 1.6));
+  painter.drawLine(view_.toPixel(from), view_.toPixel(to));
+  mark(from);
+  mark(to);
+  const QPointF way = to - from;
+  paintReadOut(painter,
+               {{tr("straight"), session_.lengthText(std::hypot(way.x(), way.y()))},
+                {tr("across"), session_.lengthText(std::abs(way.x()))},
+                {tr("up"), session_.lengthText(std::abs(way.y()))}},
+               view_.toPixel(to));
 }
 
 }  // namespace toile::studio

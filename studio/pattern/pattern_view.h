@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <QPainterPath>
 #include <QWidget>
+#include <optional>
 #include <vector>
 
 #include "app/session.h"
+#include "pattern/drawn_pattern.h"
+#include "pattern/pattern_painter.h"
 
 namespace toile::studio {
 
-/// The pieces as they will be cut, to scale on a ruled ground.
+/// The pieces as they will be cut, to scale on a ruled ground, and the hands on them: the
+/// grain of a piece is turned, distances are measured.
 class PatternView final : public QWidget {
   Q_OBJECT
  public:
   explicit PatternView(Session& session, QWidget* parent = nullptr);
 
   void fitAll();
-  [[nodiscard]] double pixelsPerMm() const { return scale_; }
+  [[nodiscard]] double pixelsPerMm() const { return view_.scale; }
+  [[nodiscard]] const SheetView& sheetView() const { return view_; }
+  [[nodiscard]] const std::vector<DrawnPiece>& pieces() const { return pieces_; }
+  [[nodiscard]] const PatternShown& shown() const { return shown_; }
+  void setShown(const PatternShown& shown);
 
  Q_SIGNALS:
   void scaleChanged();
@@ -28,40 +35,36 @@ class PatternView final : public QWidget {
   void mouseMoveEvent(QMouseEvent* event) override;
   void mouseReleaseEvent(QMouseEvent* event) override;
   void wheelEvent(QWheelEvent* event) override;
+  void keyPressEvent(QKeyEvent* event) override;
   void leaveEvent(QEvent* event) override;
 
  private:
-  struct Run {
-    std::string curve;
-    QPolygonF points;  ///< sheet, mm, y up
-    CurveKind kind = CurveKind::Seam;
-  };
-  struct Drawn {
-    std::string id;
-    QString name;
-    QPainterPath sew, cut;
-    std::vector<Run> runs, inner;
-    std::vector<QLineF> notches;
-    QLineF grain;
-    QPointF label;
-    QString note;
-  };
+  enum class Gesture { None, Pan, Grain };
   void takePattern();
-  [[nodiscard]] QPointF toSheet(const QPointF& pixel) const;
-  [[nodiscard]] QPointF toPixel(const QPointF& sheet) const;
+  void colour();
   [[nodiscard]] Selection pick(const QPointF& pixel) const;
-  void paintGround(QPainter& painter) const;
-  void paintRulers(QPainter& painter) const;
-  void paintPiece(QPainter& painter, const Drawn& piece) const;
+  [[nodiscard]] const DrawnPiece* find(const std::string& id) const;
+  [[nodiscard]] Gesture gestureAt(const QPointF& pixel, const DrawnPiece** piece) const;
+  /// Of the grain that is held, as far as the hand has come.
+  [[nodiscard]] QTransform motion() const;
+  [[nodiscard]] double turnOfHand() const;  ///< degrees, counter-clockwise
+  void finishGesture();
+  void paintMeasure(QPainter& painter) const;
+  [[nodiscard]] QPointF caught(const QPointF& pixel) const;
 
   Session& session_;
-  std::vector<Drawn> pieces_;
-  QRectF box_;          ///< of all pieces, mm
-  double scale_ = 0.5;  ///< px per mm
-  QPointF centre_;      ///< sheet place in the middle of the window
+  PatternShown shown_;
+  std::vector<DrawnPiece> pieces_;
+  QRectF box_;  ///< of all pieces, mm
+  SheetView view_;
   bool fitted_ = true;  ///< the user has not moved it since the last fit
+
+  Gesture gesture_ = Gesture::None;
+  std::string held_;
+  bool moved_ = false;
   QPointF pressedAt_, lastAt_;
-  bool panning_ = false;
+  std::vector<QPointF> measured_;  ///< on the sheet: none, one or two places
+  QPointF measureAt_;
 };
 
 }  // namespace toile::studio

@@ -12,47 +12,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr double kLineCatch = 10;  // px
-
 struct Words {
   Q_DECLARE_TR_FUNCTIONS(ClickTools)
 };
-
-QString titleOf(const ToolHost& host, const std::string& id) {
-  const PlacedLine* line = host.lines().find(id);
-  return QString::fromStdString(line == nullptr ? id : line->title());
-}
-
-/// Shows what an edit would make; what cannot be made shows nothing.
-void show(ToolHost& host, const Result<Edited>& made) {
-  if (made) {
-    host.preview(withTwins(host, *made), /*withPattern=*/false);
-  } else {
-    host.dropPreview();
-  }
-}
-
-void keep(ToolHost& host, const QString& step, const Result<Edited>& made) {
-  host.dropPreview();
-  if (!made) return host.tell(QString::fromStdString(made.error().message));
-  const Document document = withTwins(host, *made);
-  host.commit(step, document);
-  if (!made->curves.empty()) host.select(Selection::line(made->curves.front()));
-}
-
-void keep(ToolHost& host, const QString& step, const Result<Document>& made) {
-  host.dropPreview();
-  if (!made) return host.tell(QString::fromStdString(made.error().message));
-  host.commit(step, *made);
-}
-
-std::vector<std::string> othersThan(const ToolHost& host, const std::string& curve) {
-  std::vector<std::string> ids;
-  for (const StylingCurve& each : host.document().design->curves) {
-    if (each.id != curve) ids.push_back(each.id);
-  }
-  return ids;
-}
 
 }  // namespace
 
@@ -92,7 +54,7 @@ void LeastLengthTool::move(const PointerEvent& event, ToolHost& host) {
   next_ = snap(host, event);
   if (!first_ || !next_) return;
   const std::vector<SurfacePoint> points{first_->point, next_->point};
-  show(host, drawShortest(host.document(), points, nextCurve(host)));
+  showEdit(host, drawShortest(host.document(), points, nextCurve(host)));
 }
 
 void LeastLengthTool::press(const PointerEvent& event, ToolHost& host) {
@@ -106,8 +68,8 @@ void LeastLengthTool::press(const PointerEvent& event, ToolHost& host) {
   const std::vector<SurfacePoint> points{first_->point, next_->point};
   const NewCurve curve = nextCurve(host);
   first_.reset();
-  keep(host, Words::tr("Least length, %1").arg(QString::fromStdString(curve.name)),
-       drawShortest(host.document(), points, curve));
+  keepEdit(host, Words::tr("Least length, %1").arg(QString::fromStdString(curve.name)),
+           drawShortest(host.document(), points, curve));
 }
 
 QString LeastLengthTool::hint(const ToolHost&) const {
@@ -130,7 +92,8 @@ void GirthTool::move(const PointerEvent& event, ToolHost& host) {
   host.dropPreview();
   next_ = snap(host, event);
   if (!next_) return;
-  show(host, drawGirth(host.document(), next_->point, girthNormal(event, host), nextCurve(host)));
+  showEdit(host,
+           drawGirth(host.document(), next_->point, girthNormal(event, host), nextCurve(host)));
 }
 
 void GirthTool::press(const PointerEvent& event, ToolHost& host) {
@@ -138,8 +101,8 @@ void GirthTool::press(const PointerEvent& event, ToolHost& host) {
   next_ = snap(host, event);
   if (!next_) return;
   const NewCurve curve = nextCurve(host);
-  keep(host, Words::tr("Girth, %1").arg(QString::fromStdString(curve.name)),
-       drawGirth(host.document(), next_->point, girthNormal(event, host), curve));
+  keepEdit(host, Words::tr("Girth, %1").arg(QString::fromStdString(curve.name)),
+           drawGirth(host.document(), next_->point, girthNormal(event, host), curve));
 }
 
 QString GirthTool::hint(const ToolHost&) const {
@@ -162,8 +125,8 @@ void DartTool::move(const PointerEvent& event, ToolHost& host) {
   host.dropPreview();
   next_ = snap(host, event);
   if (!next_ || !mouth_) return;
-  show(host, drawDart(host.document(), mouth_->curve, next_->point, mouth_->fraction,
-                      nextCurve(host, CurveKind::Dart)));
+  showEdit(host, drawDart(host.document(), mouth_->curve, next_->point, mouth_->fraction,
+                          nextCurve(host, CurveKind::Dart)));
 }
 
 void DartTool::press(const PointerEvent& event, ToolHost& host) {
@@ -179,8 +142,8 @@ void DartTool::press(const PointerEvent& event, ToolHost& host) {
   if (!next_) return;
   const NewCurve curve = nextCurve(host, CurveKind::Dart);
   first_.reset();
-  keep(host, Words::tr("Dart, %1").arg(QString::fromStdString(curve.name)),
-       drawDart(host.document(), mouth_->curve, next_->point, mouth_->fraction, curve));
+  keepEdit(host, Words::tr("Dart, %1").arg(QString::fromStdString(curve.name)),
+           drawDart(host.document(), mouth_->curve, next_->point, mouth_->fraction, curve));
 }
 
 QString DartTool::hint(const ToolHost&) const {
@@ -202,7 +165,7 @@ void SplitTool::move(const PointerEvent& event, ToolHost& host) {
 
 void SplitTool::press(const PointerEvent& event, ToolHost& host) {
   const auto pick = pickLine(host, event.at, kLineCatch);
-  if (!pick) return;
+  if (!pick || refuseLocked(host, pick->curve)) return;
   const std::vector<double> at{pick->fraction};
   const QString step = Words::tr("Split %1").arg(titleOf(host, pick->curve));
   const Result<Edited> made = splitCurve(host.document(), pick->curve, at);
@@ -227,7 +190,7 @@ void TrimTool::move(const PointerEvent& event, ToolHost& host) {
 void TrimTool::press(const PointerEvent& event, ToolHost& host) {
   host.dropPreview();
   const auto pick = pickLine(host, event.at, kLineCatch);
-  if (!pick) return;
+  if (!pick || refuseLocked(host, pick->curve)) return;
   const QString step = Words::tr("Trim %1").arg(titleOf(host, pick->curve));
   const Result<Edited> made =
       trimAtCrossings(host.document(), pick->curve, pick->fraction, othersThan(host, pick->curve));
@@ -245,7 +208,7 @@ void JoinTool::move(const PointerEvent& event, ToolHost& host) {
 
 void JoinTool::press(const PointerEvent& event, ToolHost& host) {
   const auto pick = pickLine(host, event.at, kLineCatch);
-  if (!pick) return;
+  if (!pick || refuseLocked(host, pick->curve)) return;
   if (line_.empty()) {
     line_ = pick->curve;
     first_ = Snapped{pick->point, pick->place, host.screen().towardsEye(pick->place), std::nullopt,
@@ -255,9 +218,9 @@ void JoinTool::press(const PointerEvent& event, ToolHost& host) {
   const std::string line = std::exchange(line_, {});
   first_.reset();
   const QString step = Words::tr("Join %1").arg(titleOf(host, line));
-  keep(host, step,
-       line == pick->curve ? closeCurve(host.document(), line)
-                           : joinCurves(host.document(), line, pick->curve));
+  keepEdit(host, step,
+           line == pick->curve ? closeCurve(host.document(), line)
+                               : joinCurves(host.document(), line, pick->curve));
 }
 
 bool JoinTool::key(ToolKey key, ToolHost& host) {

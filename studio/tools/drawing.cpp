@@ -111,6 +111,52 @@ Document withTwins(ToolHost& host, const Edited& drawn) {
   return document;
 }
 
+QString titleOf(const ToolHost& host, const std::string& id) {
+  const PlacedLine* line = host.lines().find(id);
+  return QString::fromStdString(line == nullptr ? id : line->title());
+}
+
+std::vector<std::string> othersThan(const ToolHost& host, const std::string& curve) {
+  std::vector<std::string> ids;
+  for (const StylingCurve& each : host.document().design->curves) {
+    if (each.id != curve) ids.push_back(each.id);
+  }
+  return ids;
+}
+
+bool isLocked(const ToolHost& host, const std::string& curve) {
+  const StylingCurve* found = findCurve(*host.document().design, curve);
+  return found != nullptr && found->unknown.contains("locked");
+}
+
+bool refuseLocked(ToolHost& host, const std::string& curve) {
+  if (!isLocked(host, curve)) return false;
+  host.tell(Words::tr("%1 is locked; unlock it in the panel.").arg(titleOf(host, curve)));
+  return true;
+}
+
+void showEdit(ToolHost& host, const Result<Edited>& made) {
+  if (made) {
+    host.preview(withTwins(host, *made), /*withPattern=*/false);
+  } else {
+    host.dropPreview();
+  }
+}
+
+void keepEdit(ToolHost& host, const QString& step, const Result<Edited>& made) {
+  host.dropPreview();
+  if (!made) return host.tell(QString::fromStdString(made.error().message));
+  const Document document = withTwins(host, *made);
+  host.commit(step, document);
+  if (!made->curves.empty()) host.select(Selection::line(made->curves.front()));
+}
+
+void keepEdit(ToolHost& host, const QString& step, const Result<Document>& made) {
+  host.dropPreview();
+  if (!made) return host.tell(QString::fromStdString(made.error().message));
+  host.commit(step, *made);
+}
+
 Document withEndAt(const Document& document, const std::string& curve, bool atStart,
                    const SurfacePoint& place) {
   const Result<std::vector<Handle>> handles = handlesOf(document, curve);

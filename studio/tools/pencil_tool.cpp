@@ -14,6 +14,8 @@ namespace {
 
 /// Of the height of the view: what a hand trembles by. The engine's own measure, see PencilOptions.
 constexpr double kTolerance = 1.0 / 400;
+/// In catch radii: how near to a caught end a stroke is straightened.
+constexpr double kCatchWidth = 1.2;
 /// A stroke shorter than this, px, was a click.
 constexpr double kShortest = 8;
 
@@ -63,8 +65,20 @@ void PencilTool::release(const PointerEvent& event, ToolHost& host) {
 }
 
 void PencilTool::finish(ToolHost& host) {
+  // Where an end is caught, what the hand drew beside that place would become a hook.
+  const auto isBeside = [&](const std::optional<Snapped>& caught) {
+    const auto at = host.screen().toPixel(caught->place);
+    return [at](const Sample& sample) {
+      return at && (sample.event.at - *at).norm() < kCatchWidth * sample.event.catchRadius();
+    };
+  };
+  if (start_) {
+    const auto last = std::find_if_not(samples_.begin() + 1, samples_.end(), isBeside(start_));
+    samples_.erase(samples_.begin() + 1, last);
+  }
   if (end_) {
     Sample last = samples_.back();
+    while (samples_.size() > 1 && isBeside(end_)(samples_.back())) samples_.pop_back();
     last.event.at = host.screen().toPixel(end_->place).value_or(last.event.at);
     samples_.push_back(last);
   }

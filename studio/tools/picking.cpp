@@ -4,6 +4,7 @@
 #include <QCoreApplication>
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <map>
 
 namespace toile::studio {
@@ -56,6 +57,14 @@ std::optional<PathPick> pickPath(const Screen& screen, const std::vector<Vector3
     if (here) last = *here;
   }
   return best;
+}
+
+LinePick linePick(const ToolHost& host, const PlacedLine& line, const PathPick& pick) {
+  const double arc = (1 - pick.t) * line.arc[pick.segment] + pick.t * line.arc[pick.segment + 1];
+  return {line.curve.id, pick.segment,
+          pick.t,        pointOnSegment(*modelOf(host).mesh, line.path, pick.segment, pick.t),
+          pick.place,    line.length() > 0 ? arc / line.length() : 0,
+          pick.pixels};
 }
 
 /// A place that may catch the pointer.
@@ -136,15 +145,25 @@ std::optional<LinePick> pickLine(const ToolHost& host, const Vector2d& pixel, do
     if (std::ranges::find(except, line->curve.id) != except.end()) continue;
     const auto pick = pickPath(host.screen(), line->points, pixel, best ? best->pixels : within);
     if (!pick || !isVisible(host, pick->place, line->normals[pick->segment])) continue;
-    const double arc =
-        (1 - pick->t) * line->arc[pick->segment] + pick->t * line->arc[pick->segment + 1];
-    best = LinePick{
-        line->curve.id, pick->segment,
-        pick->t,        pointOnSegment(*modelOf(host).mesh, line->path, pick->segment, pick->t),
-        pick->place,    line->length() > 0 ? arc / line->length() : 0,
-        pick->pixels};
+    best = linePick(host, *line, *pick);
   }
   return best;
+}
+
+LinePick nearestOnLine(const ToolHost& host, const PlacedLine& line, const Vector3d& place) {
+  PathPick best{0, 0, line.points.front(), 0};
+  double nearest = std::numeric_limits<double>::max();
+  for (std::size_t i = 0; i + 1 < line.points.size(); ++i) {
+    const Vector3d way = line.points[i + 1] - line.points[i];
+    const double squared = way.squaredNorm();
+    const double t =
+        squared == 0 ? 0 : std::clamp((place - line.points[i]).dot(way) / squared, 0.0, 1.0);
+    const Vector3d foot = line.points[i] + t * way;
+    if ((foot - place).norm() >= nearest) continue;
+    nearest = (foot - place).norm();
+    best = {i, t, foot, 0};
+  }
+  return linePick(host, line, best);
 }
 
 std::vector<std::vector<Vector3d>> middleLines(const ReferenceModel& model) {

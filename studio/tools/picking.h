@@ -29,6 +29,9 @@ struct LinePick {
 [[nodiscard]] std::optional<LinePick> pickLine(const ToolHost& host, const Eigen::Vector2d& pixel,
                                                double within,
                                                const std::vector<std::string>& except = {});
+/// The place of one line nearest to a place in space. Precondition: the line has points.
+[[nodiscard]] LinePick nearestOnLine(const ToolHost& host, const PlacedLine& line,
+                                     const Eigen::Vector3d& place);
 
 /// The line in the middle of a symmetric body.
 [[nodiscard]] std::vector<std::vector<Eigen::Vector3d>> middleLines(const ReferenceModel& model);

@@ -17,7 +17,6 @@ using Eigen::Vector3d;
 namespace {
 
 constexpr double kDragStart = 3;   // px before a press becomes a drag
-constexpr double kLineCatch = 8;   // px
 constexpr double kSlowness = 0.2;  // of the pointer's way, with Shift
 constexpr double kNudge = 1;       // mm
 
@@ -29,10 +28,6 @@ Vector3d normalAt(const Mesh& mesh, const SurfacePoint& point) {
   Vector3d normal = Vector3d::Zero();
   for (const FaceId face : facesOf(mesh, point)) normal += mesh.normal(face);
   return normal.normalized();
-}
-
-bool isLocked(const PlacedLine& line) {
-  return line.curve.unknown.contains("locked");
 }
 
 /// The line, its twin, its original: what a moved point must not be caught by.
@@ -51,7 +46,7 @@ const std::vector<Handle>& SelectTool::handles(const ToolHost& host) const {
   const Selection& selected = host.selection();
   const PlacedLine* line =
       selected.kind == Selection::Kind::Line ? host.lines().find(selected.id) : nullptr;
-  if (line == nullptr || isLocked(*line)) {
+  if (line == nullptr || isLocked(host, selected.id)) {
     handlesCurve_.clear();
     handles_.clear();
   } else if (handlesCurve_ != selected.id || handlesVersion_ != line->version) {
@@ -259,7 +254,7 @@ void SelectTool::remove(ToolHost& host) {
   const Selection selection = host.selection();
   const PlacedLine* line = host.lines().find(selection.id);
   if (line == nullptr) return;
-  if (isLocked(*line)) return host.tell(Words::tr("This line is locked; unlock it in the panel."));
+  if (refuseLocked(host, selection.id)) return;
   const QString title = QString::fromStdString(line->title());
   if (selection.handle && *selection.handle < handles(host).size()) {
     const Handle& handle = handles(host)[*selection.handle];

@@ -3,6 +3,9 @@
 
 #include "tools/click_tools.h"
 #include "tools/curve_tool.h"
+#include "tools/fair_tool.h"
+#include "tools/line_tools.h"
+#include "tools/measure_tool.h"
 #include "tools/pencil_tool.h"
 #include "tools/select_tool.h"
 
@@ -30,6 +33,18 @@ std::unique_ptr<Tool> makeTool(ToolId id) {
       return std::make_unique<SplitTool>();
     case ToolId::Join:
       return std::make_unique<JoinTool>();
+    case ToolId::Extend:
+      return std::make_unique<ExtendTool>();
+    case ToolId::Erase:
+      return std::make_unique<EraseTool>();
+    case ToolId::Parallel:
+      return std::make_unique<ParallelTool>();
+    case ToolId::MirrorCopy:
+      return std::make_unique<MirrorCopyTool>();
+    case ToolId::Fair:
+      return std::make_unique<FairTool>();
+    case ToolId::Measure:
+      return std::make_unique<MeasureTool>();
     case ToolId::Select:
       break;
   }

@@ -13,7 +13,23 @@
 
 namespace toile::studio {
 
-enum class ToolId { Select, Pencil, Curve, LeastLength, Girth, Dart, Trim, Split, Join };
+enum class ToolId {
+  Select,
+  Pencil,
+  Curve,
+  LeastLength,
+  Girth,
+  Dart,
+  Trim,
+  Split,
+  Join,
+  Extend,
+  Erase,
+  Parallel,
+  MirrorCopy,
+  Fair,
+  Measure
+};
 
 /// What a mouse or pen does on the body, as plain values: tools know no window.
 struct PointerEvent {
@@ -40,7 +56,10 @@ struct OverlayLine {
     Draft,   ///< of the kind that it will have
     Twin,    ///< its mirror image: the kind, dashed
     Before,  ///< how it was: fine dots
-    Remove   ///< what would go
+    Remove,  ///< what would go
+    Picked,  ///< what will be worked on
+    Comb,    ///< of curvature, beside a line
+    Measure  ///< a way that is measured
   };
   std::vector<Eigen::Vector3d> points;
   std::vector<Eigen::Vector3d> normals;  ///< empty: towards the eye
@@ -61,12 +80,27 @@ struct ReadOut {
   QString value;
 };
 
+/// A short text at a place of the body: "seam 413.6 mm".
+struct OverlayLabel {
+  Eigen::Vector3d place;
+  std::vector<ReadOut> rows;
+};
+
+/// A number that a tool works with, shown beside its name and typed there: "Distance 12 mm".
+struct ToolSetting {
+  enum class Kind { Length, Share };
+  QString name;
+  Kind kind = Kind::Length;
+  double value = 0;  ///< mm, or 0..1
+};
+
 /// What a tool shows over body and lines.
 struct Overlay {
   std::vector<OverlayLine> lines;
   std::vector<OverlayPoint> points;
   std::optional<SnapMark> snap;
-  std::vector<ReadOut> readOut;
+  std::vector<ReadOut> readOut;  ///< at the pointer
+  std::vector<OverlayLabel> labels;
   bool showMiddle = false;                      ///< the mid-plane line
   std::optional<Eigen::Vector3d> seeThroughTo;  ///< what stands before this place is see-through
   Selection hover;                              ///< what a click would select
@@ -94,6 +128,9 @@ class Tool {
   [[nodiscard]] virtual QString hint(const ToolHost& host) const = 0;
   [[nodiscard]] virtual Overlay overlay(const ToolHost& host) const = 0;
   [[nodiscard]] virtual CursorShape cursor() const = 0;
+  [[nodiscard]] virtual std::optional<ToolSetting> setting() const { return std::nullopt; }
+  /// The number was typed or its slider moved: what is under way follows.
+  virtual void set(double, ToolHost&) {}
   /// A gesture is under way: autosave, undo and the like wait for it.
   [[nodiscard]] virtual bool isBusy() const { return false; }
 };

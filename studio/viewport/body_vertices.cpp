@@ -12,7 +12,6 @@
 
 namespace toile::studio {
 
-using Eigen::Vector2d;
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
@@ -133,58 +132,24 @@ std::vector<float> computeOpenness(const BodyShape& shape) {
   return open;
 }
 
-std::vector<double> strainOfFaces(const Piece& piece, const FlatPiece& flat,
-                                  StrainMeasure measure) {
-  std::vector<double> strain(piece.mesh->faceCount());
-  for (std::size_t f = 0; f < strain.size(); ++f) {
-    const FaceDistortion& d = flat.distortion[FaceId(f)];
-    if (measure == StrainMeasure::Area) {
-      strain[f] = 1 / d.areaRatio() - 1;  // > 0: the cloth must stretch
-      continue;
-    }
-    const Triangle& t = piece.mesh->vertices(FaceId(f));
-    const Vector2d u = flat.position[t[1]] - flat.position[t[0]];
-    const Vector2d v = flat.position[t[2]] - flat.position[t[0]];
-    const std::array<double, 3> sides = targetSides(piece, FaceId(f));
-    // The metric of the body in the coordinates of the flat face: lengths of its two edges and
-    // what lies between them.
-    const double uu = sides[0] * sides[0], vv = sides[2] * sides[2];
-    const double uv = 0.5 * (uu + vv - sides[1] * sides[1]);
-    const double det = u.x() * v.y() - u.y() * v.x();
-    if (det == 0) continue;
-    const Vector2d x(v.y() / det, -u.y() / det), y(-v.x() / det, u.x() / det);
-    const auto dot = [&](const Vector2d& p, const Vector2d& q) {
-      return uu * p.x() * q.x() + uv * (p.x() * q.y() + p.y() * q.x()) + vv * p.y() * q.y();
-    };
-    const double xx = std::sqrt(dot(x, x)), yy = std::sqrt(dot(y, y));
-    if (measure == StrainMeasure::Along) strain[f] = yy - 1;
-    if (measure == StrainMeasure::Across) strain[f] = xx - 1;
-    if (measure == StrainMeasure::Shear) {
-      strain[f] = std::abs(std::asin(std::clamp(dot(x, y) / (xx * yy), -1.0, 1.0)));
-    }
-  }
-  return strain;
-}
-
-std::vector<double> strainOfVertices(const Piece& piece, const FlatPiece& flat,
-                                     StrainMeasure measure) {
-  const std::vector<double> faces = strainOfFaces(piece, flat, measure);
-  std::vector<double> sum(piece.mesh->vertexCount(), 0), weight(sum.size(), 0);
-  for (std::size_t f = 0; f < faces.size(); ++f) {
-    const double area = piece.mesh->area(FaceId(f));
-    for (const VertexId v : piece.mesh->vertices(FaceId(f))) {
-      sum[v.index()] += area * faces[f];
+std::vector<float> strainOfVertices(const Mesh& mesh, const PieceStrain& strain, StrainKind kind) {
+  std::vector<double> sum(mesh.vertexCount(), 0), weight(sum.size(), 0);
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const double area = mesh.area(FaceId(f));
+    for (const VertexId v : mesh.vertices(FaceId(f))) {
+      sum[v.index()] += area * strain.faces[FaceId(f)].of(kind);
       weight[v.index()] += area;
     }
   }
+  std::vector<float> means(sum.size(), 0);
   for (std::size_t v = 0; v < sum.size(); ++v) {
-    if (weight[v] > 0) sum[v] /= weight[v];
+    if (weight[v] > 0) means[v] = static_cast<float>(sum[v] / weight[v]);
   }
-  return sum;
+  return means;
 }
 
 std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape, const Pattern* pattern,
-                                         BodyColouring colouring, StrainMeasure measure) {
+                                         const BodyPaint& paint) {
   std::vector<BodyVertex> vertices;
   const auto clay = bytesOf(palette().clay);
   if (pattern == nullptr || pattern->document.model != shape.model || pattern->cut.pieces.empty()) {
@@ -201,13 +166,14 @@ std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape, const Pattern* 
   }
   for (std::size_t i = 0; i < pattern->cut.pieces.size(); ++i) {
     const Piece& piece = pattern->cut.pieces[i];
-    const FlatPiece* flat = pattern->flats[i].get();
-    const bool strained = colouring == BodyColouring::Strain && flat != nullptr;
-    const auto colour = strained || colouring == BodyColouring::Clay
+    const bool isStrain = paint.colouring == BodyColouring::Strain;
+    const bool strained = isStrain && paint.strains != nullptr && i < paint.strains->size() &&
+                          (*paint.strains)[i].has_value();
+    const auto colour = isStrain || paint.colouring == BodyColouring::Clay
                             ? clay
-                            : bytesOf(colourOf(*pattern, i, colouring));
-    std::vector<double> strain;
-    if (strained) strain = strainOfVertices(piece, *flat, measure);
+                            : bytesOf(colourOf(*pattern, i, paint.colouring));
+    std::vector<float> strain;
+    if (strained) strain = strainOfVertices(*piece.mesh, *(*paint.strains)[i], paint.kind);
     std::vector<BodyVertex> ofPiece;
     ofPiece.reserve(piece.mesh->vertexCount());
     for (std::size_t v = 0; v < piece.mesh->vertexCount(); ++v) {
@@ -215,7 +181,7 @@ std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape, const Pattern* 
       BodyVertex vertex{floats(piece.mesh->position(VertexId(v))),
                         floats(shade.normal.cast<double>()), shade.openness, 0, colour};
       if (strained) {
-        vertex.strain = static_cast<float>(strain[v]);
+        vertex.strain = strain[v];
         vertex.colour[3] = 0;  // coloured by its strain
       }
       ofPiece.push_back(vertex);

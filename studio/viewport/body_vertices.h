@@ -32,19 +32,22 @@ struct BodyVertex {
 };
 
 enum class BodyColouring { Clay, Fabric, Piece, Strain };
-enum class StrainMeasure { Area, Along, Across, Shear };
 
-/// Per face of a flat piece. Along and across are of the grain on the piece as it was unfolded.
-[[nodiscard]] std::vector<double> strainOfFaces(const Piece& piece, const FlatPiece& flat,
-                                                StrainMeasure measure);
-/// The same per vertex, area-weighted.
-[[nodiscard]] std::vector<double> strainOfVertices(const Piece& piece, const FlatPiece& flat,
-                                                   StrainMeasure measure);
+/// Per vertex of a piece, the mean of the faces around it by their area.
+[[nodiscard]] std::vector<float> strainOfVertices(const Mesh& mesh, const PieceStrain& strain,
+                                                  StrainKind kind);
+
+/// How the pieces of a pattern are coloured.
+struct BodyPaint {
+  BodyColouring colouring = BodyColouring::Fabric;
+  StrainKind kind = StrainKind::Area;
+  /// Of the pattern's pieces; null: none is known.
+  const std::vector<std::optional<PieceStrain>>* strains = nullptr;
+};
 
 /// Three per triangle. With a pattern of the same model, the triangles of its pieces.
 [[nodiscard]] std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape,
                                                        const Pattern* pattern,
-                                                       BodyColouring colouring,
-                                                       StrainMeasure measure);
+                                                       const BodyPaint& paint);
 
 }  // namespace toile::studio

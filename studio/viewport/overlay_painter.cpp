@@ -129,6 +129,15 @@ void paintReadOut(QPainter& painter, const std::vector<ReadOut>& rows, const QPo
   }
 }
 
+void paintMarker(QPainter& painter, const QPointF& at, const QString& text, bool strong) {
+  painter.setPen(QPen(Qt::white, 1.5));
+  painter.setBrush(strong ? QColor("#A34700") : palette().readOut);
+  painter.drawEllipse(at, 9, 9);
+  painter.setFont(textFont(painter, true));
+  painter.setPen(Qt::white);
+  painter.drawText(QRectF(at.x() - 12, at.y() - 12, 24, 24), Qt::AlignCenter, text);
+}
+
 void paintToolOverlay(QPainter& painter, const Overlay& overlay, const ToolHost& host,
                       const std::optional<Vector2d>& cursor) {
   const auto pixelOf = [&](const Eigen::Vector3d& place) -> std::optional<QPointF> {
@@ -147,6 +156,9 @@ void paintToolOverlay(QPainter& painter, const Overlay& overlay, const ToolHost&
   }
   if (overlay.snap) {
     if (const auto at = pixelOf(overlay.snap->place)) paintSnap(painter, *overlay.snap, *at);
+  }
+  for (const OverlayLabel& label : overlay.labels) {
+    if (const auto at = pixelOf(label.place)) paintReadOut(painter, label.rows, *at);
   }
   if (cursor) paintReadOut(painter, overlay.readOut, {cursor->x(), cursor->y()});
 }

@@ -15,4 +15,7 @@ void paintToolOverlay(QPainter& painter, const Overlay& overlay, const ToolHost&
 /// The dark label with rows "word value", beside a place of the window.
 void paintReadOut(QPainter& painter, const std::vector<ReadOut>& rows, const QPointF& beside);
 
+/// A disk with a number or letter: a spot of the list, a proposal.
+void paintMarker(QPainter& painter, const QPointF& at, const QString& text, bool strong);
+
 }  // namespace toile::studio

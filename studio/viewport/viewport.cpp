@@ -15,8 +15,9 @@ using Eigen::Vector3d;
 
 namespace {
 
-constexpr int kFlight = 180;  // ms
-constexpr int kRest = 160;    // ms after which the picture is drawn finely
+constexpr int kFlight = 180;     // ms
+constexpr int kRest = 160;       // ms after which the picture is drawn finely
+constexpr double kAround = 160;  // mm that are seen round a place
 
 }  // namespace
 
@@ -38,10 +39,10 @@ Viewport::Viewport(Session& session, QWidget* parent) : GlCanvas(parent), sessio
     update();
   });
   connect(&session, &Session::patternChanged, this, [this] {
-    if (session_.isPatternPreview()) return;
-    verticesAreOld_ = true;
-    update();
+    if (!session_.isPatternPreview()) strainChanged();
   });
+  connect(&session, &Session::strainChanged, this, &Viewport::strainChanged);
+  connect(&session, &Session::placeWanted, this, &Viewport::lookAtPlace);
   rest_.setSingleShot(true);
   rest_.setInterval(kRest);
   connect(&rest_, &QTimer::timeout, this, [this] {
@@ -171,15 +172,25 @@ void Viewport::lookStraightAtSelection() {
       fitted(lookingAlong(camera_, normal), low, high, double(width()) / std::max(1, height())));
 }
 
-void Viewport::setColouring(BodyColouring colouring, StrainMeasure measure, double scale,
-                            double limit) {
+void Viewport::setColouring(BodyColouring colouring) {
   colouring_ = colouring;
-  measure_ = measure;
-  look_.strainScale = scale;
-  look_.strainLimit = limit;
-  look_.strainOneSided = measure == StrainMeasure::Shear;
   verticesAreOld_ = true;
   update();
+}
+
+void Viewport::strainChanged() {
+  const StrainLook& look = session_.strainLook();
+  look_.strainScale = look.scale;
+  look_.strainOneSided = look.kind == StrainKind::Shear;
+  look_.strainLimit = session_.strainLimit().value_or(0);
+  verticesAreOld_ = true;
+  update();
+}
+
+void Viewport::lookAtPlace(const Vector3d& place, const Vector3d& normal) {
+  const Vector3d around = Vector3d::Constant(kAround);
+  lookFrom(fitted(lookingAlong(camera_, normal), place - around, place + around,
+                  double(width()) / std::max(1, height())));
 }
 
 void Viewport::setEdges(bool edges) {

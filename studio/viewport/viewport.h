@@ -31,8 +31,8 @@ class Viewport final : public GlCanvas {
   void lookStraightAtSelection();
 
   void setNavigation(NavigationPreset preset) { navigation_ = preset; }
-  void setColouring(BodyColouring colouring, StrainMeasure measure, double scale, double limit);
-  [[nodiscard]] BodyColouring colouring() const { return colouring_; }
+  /// While strain is not shown.
+  void setColouring(BodyColouring colouring);
   void setEdges(bool edges);
   void setSeeThrough(bool seeThrough);
   [[nodiscard]] bool seeThrough() const { return seeThrough_; }
@@ -71,11 +71,13 @@ class Viewport final : public GlCanvas {
   void released(const PointerEvent& event, const QPoint& globalPlace);
   void bodyChanged();
   void updateVertices();
+  void strainChanged();
+  void lookAtPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
   void updateCursor();
   void interacted();
-  void fitBox(const std::vector<Eigen::Vector3d>& points);
   [[nodiscard]] std::vector<Eigen::Vector3d> selectedPoints() const;
   [[nodiscard]] std::vector<DrawnLine> drawnLines(const Overlay& overlay) const;
+  void paintMarkers(QPainter& painter) const;
   void drawBody(const QSize& size, const Overlay& overlay);
 
   Session& session_;
@@ -91,7 +93,6 @@ class Viewport final : public GlCanvas {
   std::uint64_t shapeNumber_ = 0;
   bool verticesAreOld_ = true;
   BodyColouring colouring_ = BodyColouring::Fabric;
-  StrainMeasure measure_ = StrainMeasure::Area;
   BodyLook look_;
   bool seeThrough_ = false;
   /// Ground and body with their depth. While a line is dragged they stay as they are.

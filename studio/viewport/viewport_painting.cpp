@@ -4,6 +4,8 @@
 #include <algorithm>
 
 #include "app/palette.h"
+#include "document/strain_spots.h"
+#include "tools/picking.h"
 #include "viewport/overlay_painter.h"
 #include "viewport/viewport.h"
 
@@ -62,7 +64,9 @@ void Viewport::updateVertices() {
   verticesAreOld_ = false;
   ++verticesNumber_;
   if (!shape_) return;
-  body_.setVertices(makeBodyVertices(*shape_, session_.pattern().get(), colouring_, measure_));
+  const BodyPaint paint{session_.strainLook().on ? BodyColouring::Strain : colouring_,
+                        session_.strainLook().kind, session_.strains().get()};
+  body_.setVertices(makeBodyVertices(*shape_, session_.fullPattern().get(), paint));
 }
 
 std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
@@ -144,6 +148,16 @@ std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
         ink.halo = colours.trouble;
         ink.halo.setAlphaF(0.55F);
         break;
+      case OverlayLine::Style::Picked:
+        ink.halo = halo;
+        break;
+      case OverlayLine::Style::Comb:
+      case OverlayLine::Style::Measure:
+        ink.colour = QColor("#1558D6");
+        ink.width = line.style == OverlayLine::Style::Comb ? 1.0 : 1.8;
+        ink.dash = ink.gap = ink.dash2 = ink.gap2 = 0;
+        ink.casing = line.style == OverlayLine::Style::Comb ? 0 : 0.55;
+        break;
     }
     drawn.push_back(std::move(ink));
   }
@@ -185,6 +199,25 @@ void Viewport::drawBody(const QSize& size, const Overlay& overlay) {
   }
 }
 
+void Viewport::paintMarkers(QPainter& painter) const {
+  const Screen shown = screen();
+  const auto pixelOf = [&](const Vector3d& place) {
+    const auto pixel = shown.toPixel(place);
+    return pixel ? std::optional(QPointF(pixel->x(), pixel->y())) : std::nullopt;
+  };
+  const auto& pattern = session_.fullPattern();
+  std::vector<PlacedSpot> spots;
+  if (session_.strainLook().on && pattern && session_.strains()) {
+    spots = worstSpots(*pattern, *session_.strains(), session_.strainLook().kind);
+  }
+  for (const PlacedSpot& spot : spots) {
+    const auto at = pixelOf(spot.place);
+    if (at && studio::isVisible(session_, spot.place, spot.normal)) {
+      paintMarker(painter, *at, QString::number(spot.number), spot.isOverLimit);
+    }
+  }
+}
+
 void Viewport::paintGL(const QSize& size) {
   if (verticesAreOld_) updateVertices();
   overlay_ = session_.hasWork() ? session_.tool().overlay(session_) : Overlay();
@@ -207,6 +240,7 @@ void Viewport::paintOver(QPainter& painter) {
   if (!session_.hasWork()) return;
   const std::optional<Vector2d> cursor =
       lastPointer_ ? std::optional(lastPointer_->at) : std::nullopt;
+  paintMarkers(painter);
   paintToolOverlay(painter, overlay_, session_, cursor);
 }
 
