@@ -24,6 +24,8 @@ struct Arguments {
   std::optional<std::string> body;
   std::filesystem::path out;
   bool autoCut = false;
+  std::optional<std::string> at;  ///< a landmark, or a place
+  std::optional<Length> height;
   RenderOptions options;
 };
 
@@ -37,6 +39,43 @@ void readViews(const std::vector<std::string>& lists, std::vector<RenderView>& v
   }
 }
 
+std::optional<Eigen::Vector3d> parsePlace(std::string_view text) {
+  Eigen::Vector3d place;
+  for (Eigen::Index k = 0; k < 3; ++k) {
+    const std::size_t comma = k < 2 ? text.find(',') : text.size();
+    const std::optional<double> number = parseDouble(text.substr(0, comma));
+    if (comma == std::string_view::npos || !number) return std::nullopt;
+    place[k] = *number;
+    if (k < 2) text.remove_prefix(comma + 1);
+  }
+  return place;
+}
+
+/// The options with the close-up that --at and --height ask for.
+Result<RenderOptions> optionsOn(const Arguments& arguments, const ReferenceModel& model) {
+  RenderOptions options = arguments.options;
+  if (!arguments.at) return options;
+  RenderCloseUp closeUp;
+  if (arguments.height) closeUp.height = *arguments.height;
+  const auto landmark = model.landmarks.find(*arguments.at);
+  const auto place = parsePlace(*arguments.at);
+  if (landmark != model.landmarks.end()) {
+    closeUp.middle = position(*model.mesh, landmark->second);
+  } else if (place) {
+    closeUp.middle = *place;
+  } else {
+    std::string names;
+    for (const auto& [name, point] : model.landmarks) names += (names.empty() ? "" : ", ") + name;
+    return Error{ErrorCode::NameNotFound,
+                 fmt::format("--at: \"{}\" is neither a place x,y,z in mm nor a landmark of the "
+                             "model; {}",
+                             *arguments.at, names.empty() ? "it has none" : "there are " + names),
+                 {}};
+  }
+  options.closeUp = closeUp;
+  return options;
+}
+
 struct Drawn {
   Result<std::string> png;
   std::vector<Finding> findings;
@@ -46,12 +85,14 @@ struct Drawn {
 Drawn drawDesign(const Arguments& arguments, const Session& session, Progress& progress) {
   const Result<Document> document = openDocument(arguments.in, arguments.body, session.units);
   if (!document) return {document.error(), {}, {}};
+  const Result<RenderOptions> wanted = optionsOn(arguments, *document->model);
+  if (!wanted) return {wanted.error(), {}, {}};
   MakeOptions options;
   options.autoCut = arguments.autoCut;
   const Result<Pattern> pattern = makePattern(*document, options, nullptr, &progress);
   if (!pattern) return {pattern.error(), {}, {}};
   progress.step("draw the picture");
-  Drawn drawn{renderPattern(*pattern, arguments.options, &progress), pattern->findings, {}};
+  Drawn drawn{renderPattern(*pattern, *wanted, &progress), pattern->findings, {}};
   for (const std::optional<Error>& failure : pattern->failures) {
     if (failure) drawn.failures.push_back(*failure);
   }
@@ -63,8 +104,10 @@ Drawn drawModel(const Arguments& arguments, const Session& session, Progress& pr
                                            ? makeBuiltinModel(arguments.in)
                                            : readModel(arguments.in, session.units);
   if (!model) return {model.error(), {}, {}};
+  const Result<RenderOptions> wanted = optionsOn(arguments, *model);
+  if (!wanted) return {wanted.error(), {}, {}};
   progress.step("draw the picture");
-  return {renderModel(*model, arguments.options, &progress), model->findings, {}};
+  return {renderModel(*model, *wanted, &progress), model->findings, {}};
 }
 
 int run(const Arguments& arguments, const Session& session) {
@@ -72,7 +115,12 @@ int run(const Arguments& arguments, const Session& session) {
   if (arguments.body && !isDesign) {
     return refuse("--body is for designs, and " + arguments.in + " is a model", "render");
   }
-  if (const Result<void> fine = checkOptions(arguments.options); !fine) {
+  if (arguments.height && !arguments.at) {
+    return refuse("--height is for close-ups; say --at what", "render");
+  }
+  RenderOptions options = arguments.options;
+  if (arguments.height) options.closeUp = RenderCloseUp{{0, 0, 0}, *arguments.height};
+  if (const Result<void> fine = checkOptions(options); !fine) {
     return refuse(fine.error().message, "render");
   }
   TerminalProgress progress;
@@ -120,6 +168,13 @@ void addRender(CLI::App& app, Session& session) {
       ->allow_extra_args(false)
       ->type_name("VIEWS");
   addPictureSize(*command, options.width, options.height);
+  command
+      ->add_option("--at", arguments->at,
+                   "A close-up: a landmark of the model, or x,y,z in mm, stands in the middle")
+      ->type_name("PLACE");
+  addParsed(*command, "--height", arguments->height, parseLength,
+            "How much of the model a close-up shows from top to bottom (default: 300mm)")
+      ->type_name("LENGTH");
   addChoice<RenderStyle>(*command, "--style", options.style,
                          {{"product", RenderStyle::Product}, {"plain", RenderStyle::Plain}},
                          "The finished thing, or the design's lines on pale panels");

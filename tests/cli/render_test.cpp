@@ -70,6 +70,8 @@ TEST_F(Render, EveryOptionChangesThePicture) {
                                                {"--pieces", "strain", "--strain", "across"},
                                                {"--pieces", "none"},
                                                {"--explode", "30%"},
+                                               {"--at", "0,0,200"},
+                                               {"--at", "0,0,200", "--height", "120mm"},
                                                {"--no-captions"}}) {
     std::vector<std::string> words = small;
     words.insert(words.end(), more.begin(), more.end());
@@ -105,6 +107,9 @@ TEST_F(Render, RefusesWrongCommandLines) {
         {{"--pieces", "all"}, "cloth, strain, none"},
         {{"--explode", "300%"}, "0 to 200 %"},
         {{"--explode", "far"}, "--explode"},
+        {{"--height", "200mm"}, "--at"},
+        {{"--at", "0,0,200", "--height", "0mm"}, "more than 0"},
+        {{"--at", "0,0,200", "--height", "9"}, "--height"},
         {{"--vew", "front"}, "--view"}}) {
     const ProgramResult result = run(kSleeve, more);
     EXPECT_EQ(result.status, 2) << more[0] << ' ' << more.back();
@@ -114,6 +119,22 @@ TEST_F(Render, RefusesWrongCommandLines) {
   }
   EXPECT_EQ(run("builtin:torso@1", {"--body", "builtin:torso@1"}).status, 2);
   EXPECT_EQ(runProgram({TOILE_EXECUTABLE, "render", kSleeve}).status, 2) << "no -o";
+}
+
+TEST_F(Render, ClosesUpOnALandmarkOrAPlace) {
+  const std::vector<std::string> words = {"--size", "64x64", "--no-captions", "--at"};
+  const auto at = [&](const std::string& place) {
+    std::vector<std::string> all = words;
+    all.push_back(place);
+    return run("builtin:torso@1", all);
+  };
+  const ProgramResult named = at("crotch");
+  EXPECT_EQ(named.status, 0) << named.err;
+  const ProgramResult result = at("elbow");
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, testing::AllOf(HasSubstr("\"elbow\""), HasSubstr("crotch")));
+  EXPECT_EQ(at("1,2").status, 1);
+  EXPECT_EQ(at("1,2,3,4").status, 1);
 }
 
 TEST_F(Render, FailsOnWhatItCannotRead) {

@@ -7,7 +7,7 @@
 
 namespace toile {
 
-/// Looks at the middle of the model, the vertical upright in the picture.
+/// Looks at a middle, that of the model or of a close-up, the vertical upright in the picture.
 struct Camera {
   Eigen::Vector3d eye, right, up, forward;
   double distance = 1;  ///< of the eye from the middle
@@ -16,7 +16,7 @@ struct Camera {
 [[nodiscard]] Camera makeCamera(const Eigen::Vector3d& middle, double diagonal,
                                 const RenderView& view);
 
-/// Where a point appears in the plane through the middle of the model, mm.
+/// Where a point appears in the plane through the middle, mm.
 [[nodiscard]] Eigen::Vector2d project(const Camera& camera, const Eigen::Vector3d& point);
 
 }  // namespace toile

@@ -20,6 +20,7 @@ constexpr int kLeastSize = 16, kMostSize = 16000;
 constexpr int kMostSamples = 8;
 constexpr std::size_t kMostViews = 12;
 constexpr double kMostExplode = 2;
+constexpr double kMostHeight = 1e5;  // mm of a close-up
 // Widths of lines and sizes of type are meant for a picture of so many px; smaller pictures have
 // smaller ones, down to what can be read.
 constexpr double kStylePixels = 1600.0 * 1000.0;
@@ -171,7 +172,7 @@ Result<std::string> render(const std::string& title, const Pattern* pattern,
   std::optional<ModelRenderer> renderer;
   if (!options.views.empty()) {
     renderer.emplace(pattern != nullptr ? makeScene(*pattern, options) : makeScene(model, options),
-                     options.style,
+                     options.style, options.closeUp,
                      options.style == RenderStyle::Product && options.explode.value() == 0);
     wish.model = Vector2d::Zero();
     for (const RenderView& view : options.views) {
@@ -273,6 +274,14 @@ Result<void> checkOptions(const RenderOptions& options) {
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("pieces explode by 0 to {:.0f} %, not by {:g} %", 100 * kMostExplode,
                              options.explode.percent()),
+                 {}};
+  }
+  if (options.closeUp &&
+      !(options.closeUp->middle.allFinite() && options.closeUp->height.mm() > 0 &&
+        options.closeUp->height.mm() <= kMostHeight)) {
+    return Error{ErrorCode::InvalidArgument,
+                 fmt::format("a close-up shows more than 0 and at most {:.0f} mm, not {:g} mm",
+                             kMostHeight, options.closeUp->height.mm()),
                  {}};
   }
   if (options.views.empty() && options.pieces == RenderPieces::None) return nothingToShow();

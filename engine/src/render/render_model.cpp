@@ -56,6 +56,7 @@ struct ModelRenderer::Studio {
   RenderScene scene;
   RenderStyle style = RenderStyle::Product;
   std::optional<GroundShadow> ground;
+  std::optional<double> seen;  ///< mm, the height of a close-up; the eye looks at its middle
   double mmPerPixel = 1;
   float unit = 1;  ///< mm per px of the line styles
 
@@ -82,7 +83,7 @@ class ModelRenderer::Shot {
     distance_ = static_cast<float>(camera.distance);
     key_ = (-0.62F * right_ + 0.62F * up_ - 0.62F * forward_).normalized();
     model_ = studio.extent(camera);
-    centre_ = 0.5 * (model_.low + model_.high);
+    centre_ = studio.seen ? Vector2d(0, 0) : Vector2d(0.5 * (model_.low + model_.high));
     model_.grow(2 * studio.mmPerPixel);
     light_ = scene_.lightAtVertices(studioLight(scene_.sky.directions, right_, up_, -forward_));
     if (!studio.ground) return;
@@ -109,7 +110,7 @@ class ModelRenderer::Shot {
   float distance_ = 1;  ///< of the eye from the middle, mm
   Vector3f key_;        ///< towards the lamp, for gloss
   Extent model_, shadow_;
-  Vector2d centre_;              ///< of the model in the view plane, mm
+  Vector2d centre_;              ///< of what is seen in the view plane, mm
   std::vector<Vector3f> light_;  ///< per vertex of the scene
   std::vector<float> darkness_;  ///< of the ground
 };
@@ -220,10 +221,15 @@ void ModelRenderer::Shot::drawTile(Picture& picture, int left, int top) const {
   }
 }
 
-ModelRenderer::ModelRenderer(RenderScene scene, RenderStyle style, bool standing)
+ModelRenderer::ModelRenderer(RenderScene scene, RenderStyle style,
+                             const std::optional<RenderCloseUp>& closeUp, bool standing)
     : studio_(std::make_unique<Studio>()) {
   studio_->scene = std::move(scene);
   studio_->style = style;
+  if (closeUp) {
+    studio_->scene.middle = closeUp->middle;
+    studio_->seen = closeUp->height.mm();
+  }
   if (!standing) return;
   Vector3f low = Vector3f::Constant(std::numeric_limits<float>::infinity());
   Vector3f high = -low;
@@ -237,6 +243,7 @@ ModelRenderer::ModelRenderer(RenderScene scene, RenderStyle style, bool standing
 ModelRenderer::~ModelRenderer() = default;
 
 Vector2d ModelRenderer::size(const RenderView& view) const {
+  if (studio_->seen) return Vector2d::Constant(*studio_->seen);
   const RenderScene& scene = studio_->scene;
   const Extent extent = studio_->extent(makeCamera(scene.middle, scene.diagonal, view));
   return (extent.high - extent.low).cwiseMax(1e-6);

@@ -3,6 +3,7 @@
 
 #include <Eigen/Core>
 #include <memory>
+#include <optional>
 
 #include "render/picture.h"
 #include "render/render_scene.h"
@@ -13,13 +14,15 @@ namespace toile {
 /// of views; every view is a function of the scene alone.
 class ModelRenderer {
  public:
+  /// @param closeUp what is seen of it; absent: all
   /// @param standing whether it throws a shadow on the ground below it
-  ModelRenderer(RenderScene scene, RenderStyle style, bool standing);
+  ModelRenderer(RenderScene scene, RenderStyle style, const std::optional<RenderCloseUp>& closeUp,
+                bool standing);
   ~ModelRenderer();
   ModelRenderer(const ModelRenderer&) = delete;
   ModelRenderer& operator=(const ModelRenderer&) = delete;
 
-  /// Width and height of the model in a view, mm in the plane through its middle.
+  /// Width and height of what is seen in a view, mm in the plane through its middle.
   [[nodiscard]] Eigen::Vector2d size(const RenderView& view) const;
 
   /// Of all views drawn from now on.
@@ -33,7 +36,7 @@ class ModelRenderer {
     PixelBox box;     ///< filled whole, the model in its middle
     PixelBox ground;  ///< over which the ground shades, so that views side by side share it
     int samples = 3;  ///< per pixel and axis where outlines and lines pass, 1 elsewhere
-    int shift = 0;    ///< px that the model stands below the middle of the box
+    int shift = 0;    ///< px that the middle stands below the middle of the box
   };
   /// Leaves the box unfinished when cancelled.
   void draw(Picture& picture, const Frame& frame, const RenderView& view,

@@ -23,7 +23,7 @@ struct RenderScene {
   std::vector<ClothPaint> cloth;  ///< per part
   SurfaceLines lines;
   RayScene surface;
-  Eigen::Vector3d middle = Eigen::Vector3d::Zero();
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< where the eye looks
   double diagonal = 1;
 
   /// Light is gathered at the model's vertices, whatever the pieces are cut into.

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "render/panel_colours.h"
+#include "support/meshes.h"
 #include "support/sample_designs.h"
 #include "toile/core/parallel.h"
 #include "toile/shape/builtin.h"
@@ -130,6 +131,32 @@ TEST_F(Picture, ProductTakesTheColourOfTheFabric) {
   };
   EXPECT_GT(reds("#c01818"), 400 * 300 / 10);
   EXPECT_EQ(reds("#1840c0"), 0);
+}
+
+// A ball of radius 100 fills a close-up of 100 mm, and of one of 400 mm a quarter of the height;
+// off its middle it stands aside by so much.
+TEST(CloseUp, ShowsSoManyMillimetresAroundItsMiddle) {
+  const ReferenceModel ball = makeReferenceModel("ball", icosphere(100, 4));
+  RenderOptions options = outlineOnly(views("front"));
+  const auto filled = [&](const RenderCloseUp& closeUp) {
+    options.closeUp = closeUp;
+    const Decoded picture(renderModel(ball, options));
+    int least = 300, most = -1;
+    for (int y = 0; y < 300; ++y) {
+      if (picture.isPaper(150, static_cast<unsigned>(y))) continue;
+      least = std::min(least, y);
+      most = std::max(most, y);
+    }
+    return std::pair(least, most);
+  };
+  EXPECT_EQ(filled({{0, 0, 0}, Length::mm(100)}), std::pair(0, 299));
+  const auto [top, bottom] = filled({{0, 0, 0}, Length::mm(400)});
+  EXPECT_NEAR(bottom - top, 300 * 0.5 * 0.9, 15) << "rooms beside the view take a little";
+  const auto [upper, lower] = filled({{0, 0, 100}, Length::mm(400)});
+  EXPECT_NEAR(upper - top, 0.5 * (bottom - top), 3);
+  EXPECT_NEAR(lower - bottom, 0.5 * (bottom - top), 3);
+  options.closeUp = RenderCloseUp{{0, 0, 0}, Length::mm(0)};
+  EXPECT_EQ(checkOptions(options).error().code, ErrorCode::InvalidArgument);
 }
 
 TEST_F(Picture, StrainColoursThePieces) {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <Eigen/Core>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -21,6 +23,12 @@ struct RenderView {
 /// "top" and pairs "azimuth,elevation" in degrees: "front,30,10" is two views.
 /// @return InvalidArgument with the names that exist.
 [[nodiscard]] Result<std::vector<RenderView>> parseViews(std::string_view list);
+
+/// A part of the model, seen from near.
+struct RenderCloseUp {
+  Eigen::Vector3d middle = Eigen::Vector3d::Zero();  ///< mm; stands in the middle of every view
+  Length height = Length::mm(300);  ///< of what is seen, where the middle is; above 0
+};
 
 enum class RenderStyle {
   Product,  ///< the finished thing: cloth, stitched seams, zips, on the model as a mannequin
@@ -49,6 +57,7 @@ struct RenderOptions {
   /// 0..12 views side by side; empty shows the pieces alone.
   std::vector<RenderView> views = {{"front", Angle::degrees(0), Angle::degrees(4)},
                                    {"back", Angle::degrees(180), Angle::degrees(4)}};
+  std::optional<RenderCloseUp> closeUp{};  ///< absent: every view shows the model whole
   RenderStyle style = RenderStyle::Product;
   RenderLines lines = RenderLines::All;
   RenderPieces pieces = RenderPieces::Cloth;
