@@ -4,7 +4,8 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <unordered_map>
+#include <optional>
+#include <utility>
 
 namespace toile {
 
@@ -38,40 +39,66 @@ struct Arcs {
 class Finder {
  public:
   Finder(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b)
-      : mesh_(mesh), a_(a), b_(b), arcA_(mesh, a), arcB_(mesh, b), isSelf_(&a == &b) {}
+      : mesh_(mesh), a_(a), b_(b), isSelf_(&a == &b) {}
 
   std::vector<PathMeeting> find() {
-    std::unordered_map<FaceId, std::vector<std::size_t>> segmentsOfB;
-    std::unordered_map<VertexId, std::vector<std::size_t>> pointsOfB;
+    // The segments of B by face, of faces that A passes.
+    std::vector<FaceId> ofA = a_.faceOfSegment;
+    std::sort(ofA.begin(), ofA.end());
+    std::vector<std::pair<FaceId, std::size_t>> ofB;
     for (std::size_t j = 0; j < b_.faceOfSegment.size(); ++j) {
       // A segment along an edge lies in the faces on both sides.
-      for (const FaceId f : facesOf(j)) segmentsOfB[f].push_back(j);
+      for (const FaceId face : facesOf(j)) {
+        if (std::binary_search(ofA.begin(), ofA.end(), face)) ofB.emplace_back(face, j);
+      }
     }
-    for (std::size_t j = 0; j < b_.points.size(); ++j) {
-      if (const auto* v = std::get_if<VertexId>(&b_.points[j].at)) pointsOfB[*v].push_back(j);
-    }
-    for (std::size_t i = 0; i < a_.faceOfSegment.size(); ++i) {
-      const auto in = segmentsOfB.find(a_.faceOfSegment[i]);
-      if (in == segmentsOfB.end()) continue;
-      for (const std::size_t j : in->second) meet(i, j, a_.faceOfSegment[i]);
+    std::sort(ofB.begin(), ofB.end());
+    for (std::size_t i = 0; i < a_.faceOfSegment.size() && !ofB.empty(); ++i) {
+      const FaceId face = a_.faceOfSegment[i];
+      auto at = std::lower_bound(ofB.begin(), ofB.end(), std::pair(face, std::size_t{0}));
+      for (; at != ofB.end() && at->first == face; ++at) meet(i, at->second, face);
     }
     // Paths may touch at a vertex without a common face.
-    for (std::size_t i = 0; i < a_.points.size(); ++i) {
-      const auto* v = std::get_if<VertexId>(&a_.points[i].at);
-      const auto on = v ? pointsOfB.find(*v) : pointsOfB.end();
-      if (on == pointsOfB.end()) continue;
-      for (const std::size_t j : on->second) {
-        if (!isSelf_ || i + 1 < j) add(arcA_.start[i], arcB_.start[j], a_.points[i]);
+    const auto verticesOf = [](const SurfacePath& path) {
+      std::vector<std::pair<VertexId, std::size_t>> found;
+      for (std::size_t k = 0; k < path.points.size(); ++k) {
+        if (const auto* v = std::get_if<VertexId>(&path.points[k].at)) found.emplace_back(*v, k);
+      }
+      return found;
+    };
+    auto pointsOfB = verticesOf(b_);
+    std::sort(pointsOfB.begin(), pointsOfB.end());
+    for (const auto& [vertex, i] : verticesOf(a_)) {
+      auto at =
+          std::lower_bound(pointsOfB.begin(), pointsOfB.end(), std::pair(vertex, std::size_t{0}));
+      for (; at != pointsOfB.end() && at->first == vertex; ++at) {
+        const std::size_t j = at->second;
+        if (!isSelf_ || i + 1 < j) add(arcsOfA().start[i], arcsOfB().start[j], a_.points[i]);
       }
     }
     return merged();
   }
 
  private:
+  /// Arc lengths, worked out for paths that come near each other only.
+  const Arcs& arcsOfA() {
+    if (!arcsA_) arcsA_.emplace(mesh_, a_);
+    return *arcsA_;
+  }
+  const Arcs& arcsOfB() {
+    if (!arcsB_) arcsB_.emplace(mesh_, b_);
+    return *arcsB_;
+  }
+
   [[nodiscard]] std::vector<FaceId> facesOf(std::size_t j) const {
     std::vector<FaceId> both{b_.faceOfSegment[j]};
     const SurfacePoint& p = b_.points[j];
     const SurfacePoint& q = b_.points[(j + 1) % b_.points.size()];
+    // Through the inside of a face no segment runs along an edge.
+    if (std::holds_alternative<SurfacePoint::InFace>(p.at) ||
+        std::holds_alternative<SurfacePoint::InFace>(q.at)) {
+      return both;
+    }
     for (const FaceId f : toile::facesOf(mesh_, p)) {
       if (f != both.front() && touches(mesh_, q, f)) both.push_back(f);
     }
@@ -104,9 +131,9 @@ class Finder {
         const double other = std::clamp(t, 0.0, 1.0);
         if ((from - other * d).norm() > kOnLine) return;
         if (ofA) {
-          add(arcA_.at(i, own), arcB_.at(j, other), s);
+          add(arcsOfA().at(i, own), arcsOfB().at(j, other), s);
         } else {
-          add(arcA_.at(i, other), arcB_.at(j, own), s);
+          add(arcsOfA().at(i, other), arcsOfB().at(j, own), s);
         }
       };
       onOther(p, true, 0);
@@ -118,15 +145,15 @@ class Finder {
     const double s = cross(w, v) / determinant, t = cross(w, u) / determinant;
     if (s < -kPastEnd || s > 1 + kPastEnd || t < -kPastEnd || t > 1 + kPastEnd) return;
     const double onA = std::clamp(s, 0.0, 1.0), onB = std::clamp(t, 0.0, 1.0);
-    add(arcA_.at(i, onA), arcB_.at(j, onB), pointNear(p, p2, q, q2, onA, i, j, onB, face));
+    add(arcsOfA().at(i, onA), arcsOfB().at(j, onB), pointNear(p, p2, q, q2, onA, i, j, onB, face));
   }
 
   /// A point of a path where the meeting is as good as there, else the place between.
-  [[nodiscard]] SurfacePoint pointNear(const SurfacePoint& p, const SurfacePoint& p2,
-                                       const SurfacePoint& q, const SurfacePoint& q2, double s,
-                                       std::size_t i, std::size_t j, double t, FaceId face) const {
-    const double lengthA = arcA_.start[i + 1] - arcA_.start[i];
-    const double lengthB = arcB_.start[j + 1] - arcB_.start[j];
+  SurfacePoint pointNear(const SurfacePoint& p, const SurfacePoint& p2, const SurfacePoint& q,
+                         const SurfacePoint& q2, double s, std::size_t i, std::size_t j, double t,
+                         FaceId face) {
+    const double lengthA = arcsOfA().start[i + 1] - arcsOfA().start[i];
+    const double lengthB = arcsOfB().start[j + 1] - arcsOfB().start[j];
     if (t * lengthB < kSameMeeting) return q;
     if ((1 - t) * lengthB < kSameMeeting) return q2;
     if (s * lengthA < kSameMeeting) return p;
@@ -147,8 +174,8 @@ class Finder {
     std::vector<PathMeeting> out;
     for (const PathMeeting& m : found_) {
       const bool isKnown = std::any_of(out.begin(), out.end(), [&](const PathMeeting& o) {
-        return distance(m.a, o.a, arcA_, a_.closed) < kSameMeeting &&
-               distance(m.b, o.b, arcB_, b_.closed) < kSameMeeting;
+        return distance(m.a, o.a, arcsOfA(), a_.closed) < kSameMeeting &&
+               distance(m.b, o.b, arcsOfB(), b_.closed) < kSameMeeting;
       });
       if (!isKnown) out.push_back(m);
     }
@@ -158,7 +185,7 @@ class Finder {
   const Mesh& mesh_;
   const SurfacePath& a_;
   const SurfacePath& b_;
-  Arcs arcA_, arcB_;
+  std::optional<Arcs> arcsA_, arcsB_;
   bool isSelf_;
   std::vector<PathMeeting> found_;
 };

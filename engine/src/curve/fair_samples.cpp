@@ -28,11 +28,11 @@ TangentFrame someFrame(const Vector3d& normal) {
   return {a, normal.cross(a)};
 }
 
-double distanceToSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
+double squareToSegment(const Vector3d& p, const Vector3d& a, const Vector3d& b) {
   const Vector3d d = b - a;
   const double square = d.squaredNorm();
   const double t = square > 0 ? std::clamp((p - a).dot(d) / square, 0.0, 1.0) : 0.0;
-  return (a + t * d - p).norm();
+  return (a + t * d - p).squaredNorm();
 }
 
 /// The farthest that points lie from a polyline, each near its own index.
@@ -45,12 +45,12 @@ double farthestFrom(const std::vector<Vector3d>& line, const std::vector<Vector3
     for (std::ptrdiff_t k = i - kWindow; k < i + kWindow; ++k) {
       if (!closed && (k < 0 || k + 1 >= n)) continue;
       const auto from = static_cast<std::size_t>((k % n + n) % n);
-      nearest = std::min(nearest, distanceToSegment(points[static_cast<std::size_t>(i)], line[from],
-                                                    line[(from + 1) % line.size()]));
+      nearest = std::min(nearest, squareToSegment(points[static_cast<std::size_t>(i)], line[from],
+                                                  line[(from + 1) % line.size()]));
     }
     farthest = std::max(farthest, nearest);
   }
-  return farthest;
+  return std::sqrt(farthest);
 }
 
 }  // namespace

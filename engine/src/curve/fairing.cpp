@@ -102,17 +102,30 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
   const auto rungOf = [&](std::size_t l, int k) {
     return shortestWavelength(lines[l]) * std::pow(kLadderFactor, k);
   };
+  // Bends longer than half of the line are meant, if nobody says which.
+  const auto halfOf = [&](std::size_t l) {
+    return 0.5 * longestWavelength(lines[l]) / kLongestInLengths;
+  };
+  const auto isNeeded = [&](std::size_t l, int k) {
+    if (k == 0) return true;
+    const Rung& last = ladder[l].back();
+    if (static_cast<int>(ladder[l].size()) < k || last.farthest > options.maxDeviation.mm()) {
+      return false;
+    }
+    const std::optional<int>& wanted = network.lines[l].inflections;
+    return wanted ? last.inflections > *wanted && rungOf(l, k) <= longestWavelength(lines[l])
+                  : rungOf(l, k) <= halfOf(l);
+  };
   for (int k = 0; k < kMaxRungs; ++k) {
     std::vector<double> strengths;
-    bool isNeeded = false;
+    std::vector<std::size_t> needed;
     for (std::size_t l = 0; l < lines.size(); ++l) {
       strengths.push_back(strengthOf(rungOf(l, k)));
-      isNeeded = isNeeded || rungOf(l, k) <= longestWavelength(lines[l]);
+      if (isNeeded(l, k)) needed.push_back(l);
     }
-    if (!isNeeded) break;
+    if (needed.empty()) break;
     const VectorXd unknowns = step.solve(strengths);
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-      if (rungOf(l, k) > longestWavelength(lines[l])) continue;
+    for (const std::size_t l : needed) {
       const auto places = samples.placesAfter(l, unknowns);
       ladder[l].push_back(
           {samples.inflections(l, places, kLeastBend), samples.deviation(l, places)});
@@ -124,12 +137,8 @@ std::vector<double> chooseWavelengths(const FairSamples& samples, const FairNetw
       return rung.farthest > options.maxDeviation.mm();
     });
     rungs.erase(tooFar, rungs.end());
-    // Bends longer than half of the line are meant, if nobody says which.
-    const double half = 0.5 * longestWavelength(lines[l]) / kLongestInLengths;
-    int wanted = network.lines[l].inflections.value_or(0);
-    for (std::size_t k = 0; !network.lines[l].inflections && k < rungs.size(); ++k) {
-      if (k == 0 || rungOf(l, static_cast<int>(k)) <= half) wanted = rungs[k].inflections;
-    }
+    const int left = rungs.empty() ? 0 : rungs.back().inflections;
+    const int wanted = network.lines[l].inflections.value_or(left);
     const auto found = std::find_if(rungs.begin(), rungs.end(),
                                     [&](const Rung& rung) { return rung.inflections <= wanted; });
     const int best =

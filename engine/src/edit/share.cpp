@@ -3,7 +3,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 
 #include "edit/sketch.h"
 #include "toile/curve/crossing.h"
@@ -44,27 +43,18 @@ Result<void> replaceEverywhere(Sketch& sketch, std::vector<Line>& lines, const S
   return {};
 }
 
-/// A common data point nearer than this to a meeting, mm along both, is that meeting: where lines
-/// run along each other its place is known to rounding over their angle.
+/// A common data point nearer than this to a meeting, mm, is that meeting: where lines run along
+/// each other its place is known to rounding over their angle.
 constexpr double kSameCrossing = 10 * kSameMeeting;
 
 bool isShared(const Mesh& mesh, const Line& first, const Line& second, const PathMeeting& meeting) {
-  const auto near = [&](const WorkCurve& curve, double arc) {
-    const std::vector<double> arcs = detail::arcsOf(mesh, curve);
-    const double all = arcs[curve.linkCount()];
-    std::vector<SurfacePoint> points;
-    for (std::size_t i = 0; i < curve.data.size(); ++i) {
-      const double off = std::abs(arcs[i] - arc);
-      if (std::min(off, curve.closed ? all - off : off) < kSameCrossing) {
-        points.push_back(curve.data[i]);
-      }
-    }
-    return points;
-  };
-  const auto ofFirst = near(first.curve, meeting.a), ofSecond = near(second.curve, meeting.b);
-  return std::any_of(ofFirst.begin(), ofFirst.end(), [&](const SurfacePoint& point) {
-    return std::find(ofSecond.begin(), ofSecond.end(), point) != ofSecond.end();
-  });
+  const Eigen::Vector3d place = position(mesh, meeting.point);
+  const auto& others = second.curve.data;
+  return std::any_of(first.curve.data.begin(), first.curve.data.end(),
+                     [&](const SurfacePoint& point) {
+                       return (position(mesh, point) - place).norm() < kSameCrossing &&
+                              std::find(others.begin(), others.end(), point) != others.end();
+                     });
 }
 
 /// Makes a meeting one data point of both lines. One that is there already is kept: others may

@@ -36,11 +36,14 @@ std::size_t segmentCount(const SurfacePath& path) {
 
 /// Arc length at each point, and at the end of the last segment.
 std::vector<double> arcLengths(const Mesh& mesh, const SurfacePath& path) {
+  const std::size_t count = segmentCount(path);
   std::vector<double> arc{0};
-  for (std::size_t i = 0; i < segmentCount(path); ++i) {
-    const Eigen::Vector3d a = position(mesh, path.points[i]);
+  arc.reserve(count + 1);
+  Eigen::Vector3d a = position(mesh, path.points.front());
+  for (std::size_t i = 0; i < count; ++i) {
     const Eigen::Vector3d b = position(mesh, path.points[(i + 1) % path.points.size()]);
     arc.push_back(arc.back() + (b - a).norm());
+    a = b;
   }
   return arc;
 }
@@ -167,7 +170,14 @@ bool isValid(const Mesh& mesh, const SurfacePoint& point) {
 }
 
 double length(const Mesh& mesh, const SurfacePath& path) {
-  return arcLengths(mesh, path).back();
+  double sum = 0;
+  Eigen::Vector3d a = position(mesh, path.points.front());
+  for (std::size_t i = 0; i < segmentCount(path); ++i) {
+    const Eigen::Vector3d b = position(mesh, path.points[(i + 1) % path.points.size()]);
+    sum += (b - a).norm();
+    a = b;
+  }
+  return sum;
 }
 
 SurfacePoint pointAtFraction(const Mesh& mesh, const SurfacePath& path, double fraction) {
