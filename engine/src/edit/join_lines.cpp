@@ -5,11 +5,11 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "edit/parts.h"
 #include "toile/curve/crossing.h"
 #include "toile/curve/curvature.h"
-#include "toile/curve/subdivision.h"
 #include "toile/curve/trace.h"
 #include "toile/curve/tracking.h"
 #include "toile/edit/lines.h"
@@ -24,27 +24,42 @@ namespace {
 
 /// Ends nearer than this are one place already, mm.
 constexpr double kTouching = 1e-3;
+constexpr int kBridgeSteps = 16;
+/// Radians that a bridge is thought to turn at most: a loop of more would swing out too far.
+constexpr double kMostTurn = 1.2 * std::numbers::pi;
 
 /// The way from the end of one curve to the start of the next, smooth at both.
 Result<WorkCurve> bridge(Sketch& sketch, const WorkCurve& before, const WorkCurve& after) {
   const Mesh& mesh = sketch.mesh();
   const SurfacePoint &from = before.data.back(), &to = after.data.front();
   const double gap = (position(mesh, to) - position(mesh, from)).norm();
-  const auto phantom = [&](const WorkCurve& curve, bool atEnd) {
+  // Directions along the curves at the gap.
+  const auto direction = [&](const WorkCurve& curve, bool atEnd) -> Vector3d {
     const std::vector<double> arcs = detail::arcsOf(mesh, curve);
-    const double all = arcs[curve.linkCount()], back = std::min(gap, 0.5 * all);
-    return position(mesh, detail::pointAtArc(mesh, curve, arcs, atEnd ? all - back : back));
+    const double all = arcs[curve.linkCount()], reach = std::min(gap / 8, all / 4);
+    const auto at = [&](double arc) {
+      return position(mesh, detail::pointAtArc(mesh, curve, arcs, arc));
+    };
+    return atEnd ? (at(all) - at(all - reach)).normalized() : (at(reach) - at(0)).normalized();
   };
-  const std::vector<Vector3d> row{phantom(before, true), position(mesh, from), position(mesh, to),
-                                  phantom(after, false)};
-  const std::vector<Vector3d> fine = subdivide<3>(row, false);
+  const Vector3d start = position(mesh, from), end = position(mesh, to), chord = end - start;
+  const Vector3d leaving = direction(before, true), arriving = direction(after, false);
+  // A cubic whose speed at the ends is that of a circle's arc that turns so far, within reason.
+  const auto angle = [](const Vector3d& u, const Vector3d& v) {
+    return std::atan2(u.cross(v).norm(), u.dot(v));
+  };
+  const double turn = std::min(angle(leaving, chord) + angle(chord, arriving), kMostTurn);
+  const double speed = gap / std::pow(std::cos(turn / 4), 2);
   WorkCurve made;
   made.push(from, true);
   SurfaceTracker tracker(sketch.model().mesh, from);
-  for (std::size_t i = 9; i < 16; ++i) {
-    const SurfacePoint& point = tracker.moveTo(fine[i]);
+  for (int i = 1; i < kBridgeSteps; ++i) {
+    const double t = i / double{kBridgeSteps}, t2 = t * t, t3 = t2 * t;
+    const SurfacePoint& point =
+        tracker.moveTo((2 * t3 - 3 * t2 + 1) * start + (t3 - 2 * t2 + t) * speed * leaving +
+                       (3 * t2 - 2 * t3) * end + (t3 - t2) * speed * arriving);
     if ((position(mesh, point) - position(mesh, made.data.back())).norm() > 0.02 * gap &&
-        (position(mesh, point) - position(mesh, to)).norm() > 0.02 * gap) {
+        (position(mesh, point) - end).norm() > 0.02 * gap) {
       made.push(point, false);
     }
   }

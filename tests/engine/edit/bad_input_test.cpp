@@ -138,6 +138,14 @@ TEST_F(BadInput, FairingOfWhatIsFixedEverywhere) {
   const auto line = drawShortest(body, std::vector<SurfacePoint>{at(0, 1000), at(50, 1000)});
   ASSERT_TRUE(line) << line.error();
   expectRefused(fairCurves(line->document, {}), ErrorCode::CurveInvalid);
+  // A line so short that its ends, which keep place and direction, are nearly all of it.
+  const auto shortest = drawShortest(body, std::vector<SurfacePoint>{at(30, 1000), at(33, 1002)},
+                                     {"short", "", CurveKind::Seam});
+  ASSERT_TRUE(shortest) << shortest.error();
+  const auto faired = fairCurves(shortest->document, std::vector<std::string>{"short"});
+  ASSERT_TRUE(faired) << faired.error();
+  expectFine(faired->document);
+  EXPECT_LT(faired->curves[0].deviation.mm(), 0.01);
   expectRefused(fairCurves(line->document, std::vector<std::string>{"no such line"}),
                 ErrorCode::NameNotFound);
 }
