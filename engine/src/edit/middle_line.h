@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "toile/model/reference_model.h"
@@ -27,6 +28,14 @@ class MiddleLine {
 
 /// > 0 on the model's left, < 0 on its right; with a pairing by where the vertices' partners lie.
 [[nodiscard]] double sideOf(const ReferenceModel& model, const SurfacePoint& point);
+
+/// A step from a point of the middle line over the surface, towards a place, square to the line: it
+/// and its mirror image go straight into each other. With a pairing of vertices by the angles on
+/// the surface, else square to the mirror plane.
+/// @return nullopt where the border leaves no room for it
+[[nodiscard]] std::optional<SurfacePoint> stepSquare(const ReferenceModel& model,
+                                                     const SurfacePoint& from,
+                                                     const Eigen::Vector3d& towards, double length);
 
 /// The point is its own mirror image.
 [[nodiscard]] bool isOnMiddle(const ReferenceModel& model, const SurfacePoint& point);

@@ -9,6 +9,8 @@
 
 #include "design/section_loop.h"
 #include "design/single_places.h"
+#include "edit/middle_line.h"
+#include "edit/square_join.h"
 #include "model/mirror.h"
 
 namespace toile::detail {
@@ -164,7 +166,34 @@ Result<WorkCurve> Sketch::load(const std::string& id) {
   return work;
 }
 
+void Sketch::keepSquare(const std::string& id, WorkCurve& curve) {
+  const StylingCurve& old = edit(id);
+  if (curve.closed || old.closed || old.dataPoints.size() < 2 || imagesOf(id).empty()) return;
+  // Whether the old curve begins so, from whichever end: an edit may have reversed it.
+  const auto wasSquare = [&](std::size_t end, std::size_t next) {
+    const Result<SurfacePoint> a = toSurfacePoint(mesh(), old.dataPoints[end]);
+    const Result<SurfacePoint> b = toSurfacePoint(mesh(), old.dataPoints[next]);
+    if (!a || !b || !isOnMiddle(*model_, *a)) return false;
+    const Result<WorkCurve> first =
+        makeWorkCurve(linker_, mesh(), std::vector<SurfacePoint>{*a, *b}, false);
+    return first && beginsSquare(*this, *first);
+  };
+  const std::size_t n = old.dataPoints.size();
+  bool atStart = wasSquare(0, 1), atEnd = wasSquare(n - 1, n - 2);
+  if (atStart != atEnd) {
+    const Result<SurfacePoint> a = toSurfacePoint(mesh(), old.dataPoints[0]);
+    const bool isTurned = a && *a == curve.data.back();
+    if (isTurned) std::swap(atStart, atEnd);
+  }
+  if (atStart) beginSquare(*this, id, curve);
+  if (!atEnd) return;
+  reverse(curve);
+  beginSquare(*this, id, curve);
+  reverse(curve);
+}
+
 void Sketch::store(const std::string& id, WorkCurve curve) {
+  keepSquare(id, curve);
   settle(linker_, mesh(), curve);
   StylingCurve& styling = edit(id);
   styling.closed = curve.closed;

@@ -35,7 +35,8 @@ class Sketch {
 
   /// The curve on the surface.
   Result<WorkCurve> load(const std::string& id);
-  /// Makes a curve on the surface the truth of a styling curve: data points, way, closed.
+  /// Makes a curve on the surface the truth of a styling curve: data points, way, closed. Where it
+  /// joins its live mirror image straight over the middle, the new curve does so too.
   void store(const std::string& id, WorkCurve curve);
   StylingCurve& edit(const std::string& id);
   /// After the last curve. An empty id gets a new one; one that exists is refused.
@@ -60,6 +61,7 @@ class Sketch {
   [[nodiscard]] Document document() const;
 
  private:
+  void keepSquare(const std::string& id, WorkCurve& curve);
   Result<std::vector<SurfacePoint>> controlPlaces(const StylingCurve& curve);
 
   Design design_;

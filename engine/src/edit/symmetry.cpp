@@ -8,6 +8,7 @@
 #include "edit/middle_line.h"
 #include "edit/parts.h"
 #include "edit/reshape.h"
+#include "edit/square_join.h"
 #include "model/mirror.h"
 #include "toile/curve/subdivision.h"
 #include "toile/curve/tracking.h"
@@ -62,7 +63,8 @@ Result<WorkCurve> imageOf(Sketch& sketch, const WorkCurve& original) {
 /// Draws the stretch before the end of a half anew, so that it meets its mirror image smoothly: the
 /// end slides along the middle line to where a symmetric arc from the stretch's start meets it, and
 /// the stretch runs as if the image's points were its next control points.
-Result<void> squareEnd(Sketch& sketch, const detail::MiddleLine& middle, WorkCurve& half) {
+Result<void> squareEnd(Sketch& sketch, const detail::MiddleLine& middle, const std::string& id,
+                       WorkCurve& half) {
   const Mesh& mesh = sketch.mesh();
   const double all = detail::arcsOf(mesh, half)[half.linkCount()];
   const std::size_t from = detail::insertData(mesh, half, (1 - kJoinPart) * all);
@@ -96,8 +98,12 @@ Result<void> squareEnd(Sketch& sketch, const detail::MiddleLine& middle, WorkCur
     }
   }
   made.push(end, true);
+  if (const Result<void> linked = detail::linkAll(sketch.linker(), made); !linked) return linked;
+  detail::reverse(made);
+  detail::beginSquare(sketch, id, made);
+  detail::reverse(made);
   half = std::move(made);
-  return detail::linkAll(sketch.linker(), half);
+  return {};
 }
 
 }  // namespace
@@ -226,7 +232,7 @@ Result<Edited> makeSymmetric(const Document& document, const std::string& curve,
   if (!ids) return ids.error();
   Result<WorkCurve> half = sketch.load(target->id);
   if (!half) return half.error();
-  const auto joinEnd = [&] { return squareEnd(sketch, middle, *half); };
+  const auto joinEnd = [&] { return squareEnd(sketch, middle, target->id, *half); };
   if (!endsFree) {
     if (const Result<void> done = joinEnd(); !done) return done.error();
   }

@@ -163,6 +163,7 @@ constexpr int kMostHalvings = 10;
 constexpr double kSameWay = 1e-6;
 
 bool isSameWay(const Mesh& mesh, const SurfacePath& a, const SurfacePath& b) {
+  if (a.points == b.points && a.faceOfSegment == b.faceOfSegment) return true;
   if (std::abs(length(mesh, a) - length(mesh, b)) > kSameWay) return false;
   for (const double f : {0.25, 0.5, 0.75}) {
     const double off =

