@@ -2,10 +2,12 @@
 #include "finish/strain_words.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 namespace toile {
 namespace {
@@ -32,6 +34,51 @@ std::string directionInWords(const Vector3d& from) {
   return from.y() < 0 ? "in front of" : "behind";
 }
 
+/// A landmark as people say it: "front" of the "neck", "little-finger side" of the "left wrist".
+struct Named {
+  std::string aspect, part;
+  [[nodiscard]] std::string whole() const {
+    return aspect.empty() ? part : fmt::format("{} of the {}", aspect, part);
+  }
+};
+
+Named namedOf(const std::string& name) {
+  std::vector<std::string> words{""};
+  for (const char c : name) {
+    if (c == '_') {
+      words.emplace_back();
+    } else {
+      words.back() += c;
+    }
+  }
+  std::string side;
+  if (words.size() > 1 && (words.back() == "l" || words.back() == "r")) {
+    side = words.back() == "l" ? "left" : "right";
+    words.pop_back();
+  }
+  const auto withSide = [&](const std::string& what) {
+    return side.empty() ? what : side + " " + what;
+  };
+  const std::string last = words.back();
+  const std::string first = words.front();
+  const std::string rest =
+      fmt::format("{}", fmt::join(words.begin(), words.end() - (words.size() > 1 ? 1 : 0), " "));
+  if (words.size() > 1) {
+    if (last == "front" || last == "back") return {last, withSide(rest)};
+    if (last == "side") return {withSide("side"), rest};
+    if (last == "outer" || last == "inner") return {last + " side", withSide(rest)};
+    if (first == "wrist" && last == "thumb") return {"thumb side", withSide(rest)};
+    if (first == "wrist" && last == "little") return {"little-finger side", withSide(rest)};
+    if (first == "toe") return {"", withSide(last + " toe")};
+    if (last == "tip") {
+      const bool isFinger =
+          rest == "index" || rest == "middle" || rest == "ring" || rest == "little";
+      return {"tip", withSide(isFinger ? rest + " finger" : rest)};
+    }
+  }
+  return {"", withSide(fmt::format("{}", fmt::join(words, " ")))};
+}
+
 std::string byLandmark(const ReferenceModel& model, const Vector3d& place) {
   double nearest = std::numeric_limits<double>::infinity();
   std::string words;
@@ -39,9 +86,16 @@ std::string byLandmark(const ReferenceModel& model, const Vector3d& place) {
     const Vector3d from = place - position(*model.mesh, point);
     if (from.norm() >= nearest) continue;
     nearest = from.norm();
-    words = nearest < kAt ? fmt::format("at the {}", nameInWords(name))
-                          : fmt::format("{} {} the {}", distanceInWords(nearest),
-                                        directionInWords(from), nameInWords(name));
+    const Named named = namedOf(name);
+    const std::string direction = directionInWords(from);
+    if (nearest < kAt) {
+      words = "at the " + named.whole();
+    } else if (!named.aspect.empty() && (direction == "below" || direction == "above")) {
+      words = fmt::format("{}, {} {} the {}", named.aspect, distanceInWords(nearest), direction,
+                          named.part);
+    } else {
+      words = fmt::format("{} {} the {}", distanceInWords(nearest), direction, named.whole());
+    }
   }
   return nearest < kFar ? words : "";
 }
@@ -89,22 +143,7 @@ std::string byEdge(const Design& design, const Piece& piece, const FlatPiece& fl
 }  // namespace
 
 std::string nameInWords(const std::string& name) {
-  std::string words = name, side;
-  if (name.ends_with("_l") || name.ends_with("_r")) {
-    side = name.back() == 'l' ? "left " : "right ";
-    words.resize(words.size() - 2);
-  }
-  std::ranges::replace(words, '_', ' ');
-  const std::size_t last = words.rfind(' ');
-  if (last == std::string::npos) return side + words;
-  const std::string what = words.substr(last + 1), rest = words.substr(0, last);
-  if (what == "front" || what == "back" || what == "side") {
-    return fmt::format("{} of the {}{}", what, side, rest);
-  }
-  if (what == "outer" || what == "inner") {
-    return fmt::format("{} side of the {}{}", what, side, rest);
-  }
-  return side + words;
+  return namedOf(name).whole();
 }
 
 std::string placeInWords(const Document& document, const Piece& piece, const FlatPiece& flat,

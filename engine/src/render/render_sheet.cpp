@@ -203,8 +203,8 @@ class SheetPainter {
     cairo_set_antialias(cairo_, CAIRO_ANTIALIAS_DEFAULT);
     cairo_new_path(cairo_);
     for (const auto& [a, b] : limitLine(*colours_.strain, pattern_, source)) {
-      moveTo(flat.position[a]);
-      lineTo(flat.position[b]);
+      moveTo(a);
+      lineTo(b);
     }
     setStroke(cairo_, {colourOf(0x16202E), Dash::Solid, 1.3}, frame_.scale);
     cairo_stroke(cairo_);

@@ -169,18 +169,32 @@ std::array<std::string, 2> StrainField::ends() const {
   return {};
 }
 
-std::vector<std::array<VertexId, 2>> limitLine(const StrainField& field, const Pattern& pattern,
+std::vector<std::array<Vector2d, 2>> limitLine(const StrainField& field, const Pattern& pattern,
                                                std::size_t piece) {
-  std::vector<std::array<VertexId, 2>> line;
+  std::vector<std::array<Vector2d, 2>> line;
   const std::optional<double> limit = field.limit(piece);
   if (!limit) return line;
   const Mesh& mesh = *pattern.cut.pieces[piece].mesh;
-  for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
-    const HalfedgeId h = mesh.halfedge(EdgeId(e)), other = mesh.opposite(h);
-    if (!other.isValid()) continue;
-    const bool isOver = field.value(piece, mesh.face(h)) > *limit;
-    if (isOver == (field.value(piece, mesh.face(other)) > *limit)) continue;
-    line.push_back({mesh.from(h), mesh.to(h)});
+  VertexData<double> sum(mesh.vertexCount(), 0.0), weight(mesh.vertexCount(), 0.0);
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const double area = mesh.area(FaceId(f));
+    for (const VertexId v : mesh.vertices(FaceId(f))) {
+      sum[v] += area * field.value(piece, FaceId(f));
+      weight[v] += area;
+    }
+  }
+  const auto over = [&](VertexId v) { return weight[v] > 0 ? sum[v] / weight[v] - *limit : 0.0; };
+  const VertexData<Vector2d>& at = pattern.flats[piece]->position;
+  for (std::size_t f = 0; f < mesh.faceCount(); ++f) {
+    const Triangle& t = mesh.vertices(FaceId(f));
+    std::vector<Vector2d> ends;
+    for (std::size_t k = 0; k < 3; ++k) {
+      const VertexId v = t[k], w = t[(k + 1) % 3];
+      const double a = over(v), b = over(w);
+      if ((a > 0) == (b > 0)) continue;
+      ends.emplace_back(at[v] + a / (a - b) * (at[w] - at[v]));
+    }
+    if (ends.size() == 2) line.push_back({ends[0], ends[1]});
   }
   return line;
 }
@@ -238,6 +252,16 @@ std::string strainMapSvg(const StrainField& field, const Pattern& pattern, std::
                        shade.path);
   }
   svg += "</g>";
+  std::string limit;
+  for (const auto& [a, b] : limitLine(field, pattern, index)) {
+    limit += fmt::format("M{:.2f} {:.2f}L{:.2f} {:.2f}", a.x(), -a.y(), b.x(), -b.y());
+  }
+  if (!limit.empty()) {
+    svg += fmt::format(
+        "<path d=\"{}\" fill=\"none\" stroke=\"#16202e\" stroke-width=\"{:.2f}\" "
+        "stroke-linecap=\"round\"/>",
+        limit, unit);
+  }
   for (const Wire& wire : piece.wires) svg += wirePath(wire, flat, unit);
   return svg + "</svg>";
 }

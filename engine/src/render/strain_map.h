@@ -42,10 +42,11 @@ class StrainField {
   double scale_ = 1;
 };
 
-/// The edges where a piece's strain passes the limit of its fabric, as pairs of vertices.
-[[nodiscard]] std::vector<std::array<VertexId, 2>> limitLine(const StrainField& field,
-                                                             const Pattern& pattern,
-                                                             std::size_t piece);
+/// Where a piece's strain passes the limit of its fabric: segments in its plane, on which the means
+/// of the faces round each vertex, linear within faces, are the limit.
+[[nodiscard]] std::vector<std::array<Eigen::Vector2d, 2>> limitLine(const StrainField& field,
+                                                                    const Pattern& pattern,
+                                                                    std::size_t piece);
 
 /// Path data of all faces of one colour, in a plane whose y points down.
 struct StrainShade {

@@ -147,6 +147,18 @@ TEST(StrainWords, SayWhereByTheNearestLandmark) {
   EXPECT_EQ(place(40, 140), "10 cm behind the left bust point");
 }
 
+TEST(StrainWords, SayOnWhichSideAndHowFarBelow) {
+  Cloth cloth = makeCloth(Matrix2d::Identity());
+  ReferenceModel model = *cloth.document.model;
+  model.landmarks["neck_front"] = SurfacePoint{VertexId(0)};
+  cloth.document.model = std::make_shared<const ReferenceModel>(model);
+  std::vector<Eigen::Vector3d> lower = cloth.piece.mesh->positions();
+  for (Eigen::Vector3d& p : lower) p.z() -= 120;
+  cloth.piece.mesh = std::make_shared<const Mesh>(cloth.piece.mesh->withPositions(lower));
+  EXPECT_EQ(placeInWords(cloth.document, cloth.piece, cloth.flat, VertexId(0)),
+            "front, 12 cm below the neck");
+}
+
 TEST(StrainWords, SayWhereByTheNearestEdgeOfAPieceWithoutLandmarks) {
   const Cloth cloth = makeCloth(Matrix2d::Identity());
   for (std::size_t v = 0; v < cloth.piece.mesh->vertexCount(); ++v) {
@@ -160,9 +172,13 @@ TEST(StrainWords, SayWhereByTheNearestEdgeOfAPieceWithoutLandmarks) {
 TEST(StrainWords, SayNamesAsPeopleDo) {
   EXPECT_EQ(nameInWords("crown"), "crown");
   EXPECT_EQ(nameInWords("neck_front"), "front of the neck");
-  EXPECT_EQ(nameInWords("waist_side_l"), "side of the left waist");
+  EXPECT_EQ(nameInWords("waist_side_l"), "left side of the waist");
   EXPECT_EQ(nameInWords("elbow_outer_r"), "outer side of the right elbow");
   EXPECT_EQ(nameInWords("gluteal_fold_r"), "right gluteal fold");
+  EXPECT_EQ(nameInWords("wrist_little_l"), "little-finger side of the left wrist");
+  EXPECT_EQ(nameInWords("little_tip_l"), "tip of the left little finger");
+  EXPECT_EQ(nameInWords("nose_tip"), "tip of the nose");
+  EXPECT_EQ(nameInWords("toe_big_r"), "right big toe");
 }
 
 }  // namespace
