@@ -67,6 +67,13 @@ Result<void> saveDesign(const Pattern& pattern, const Document& before,
   return writeFileWhole(path, writeDesign(design));
 }
 
+Result<AreaLimit> parseLimit(std::string_view text) {
+  if (text == "fabric") return AreaLimit();
+  const Result<Ratio> ratio = parseRatio(text);
+  if (!ratio) return ratio.error();
+  return AreaLimit(*ratio);
+}
+
 int run(const Arguments& arguments, const Session& session) {
   if (arguments.save && arguments.body) {
     std::fprintf(stderr,
@@ -127,12 +134,13 @@ void addMake(CLI::App& app, Session& session) {
       ->capture_default_str();
   command->add_flag("--inches", arguments->write.dxf.inches, "Write pattern.dxf in inches");
   addAutoCut(*command, arguments->options.autoCut);
-  addParsed(*command, "--auto-dart", arguments->options.autoDart, parseRatio,
-            "Put darts into pieces whose mean area error is greater than this, such as 5%")
+  addParsed(*command, "--auto-dart", arguments->options.autoDart, parseLimit,
+            "Put darts into pieces whose mean area error is greater than this, such as 5%, or than "
+            "the stretch limit of their fabric: fabric")
       ->type_name("RATIO");
-  addParsed(*command, "--auto-develop", arguments->options.autoDevelop, parseRatio,
-            "Process pieces whose mean area error is greater than this, boundary held, until it is "
-            "not")
+  addParsed(*command, "--auto-develop", arguments->options.autoDevelop, parseLimit,
+            "Process pieces whose mean area error is greater than this, or fabric, boundary held, "
+            "until it is not")
       ->type_name("RATIO");
   command->add_flag("--save", arguments->save,
                     "Write the lines that --auto-cut and --auto-dart find into the design");

@@ -24,14 +24,23 @@
 /// makePattern() is that sentence as code; openDocument() comes before it, writePattern() after it.
 namespace toile {
 
+/// The mean area error from which on something is done about a piece.
+struct AreaLimit {
+  AreaLimit() = default;                    ///< of each piece's fabric
+  AreaLimit(Ratio share) : ofAll(share) {}  // NOLINT(google-explicit-constructor)
+  std::optional<Ratio> ofAll;  ///< none = the lesser stretch limit of each piece's fabric
+  /// @return none for a piece of a fabric without limits
+  [[nodiscard]] std::optional<Ratio> of(const Design& design, const std::string& pieceId) const;
+};
+
 struct MakeOptions {
   UnfoldOptions unfold;
   bool autoCut = false;  ///< cut tubes open by the proposed shortest cut
   /// Puts darts, and cuts across saddles, into pieces whose mean area error is greater.
-  std::optional<Ratio> autoDart{};
+  std::optional<AreaLimit> autoDart{};
   /// Processes pieces whose mean area error is greater (toile/develop/develop.h), unless their
   /// record says how.
-  std::optional<Ratio> autoDevelop{};
+  std::optional<AreaLimit> autoDevelop{};
 };
 
 /// Solved pieces by content: what an edit did not touch is not solved again. Answers have no

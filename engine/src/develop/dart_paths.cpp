@@ -11,6 +11,7 @@
 #include "develop/curvature_potential.h"
 #include "develop/wire_vertices.h"
 #include "toile/curve/geodesic.h"
+#include "unfold/symmetry.h"
 
 namespace toile::developing {
 namespace {
@@ -27,6 +28,15 @@ constexpr double kMouthSpacing = 0.06;
 /// begin there, nor nearer to it than this share of the boundary.
 constexpr double kCorner = 35 * std::numbers::pi / 180;
 constexpr double kCornerDistance = 0.015;
+/// A piece this near to its mirror image, as a share of its size, gets symmetric darts.
+constexpr double kSymmetric = 0.02;
+/// What is on the middle of a symmetric piece, as a share of its boundary.
+constexpr double kMiddle = 0.006;
+/// Darts spread evenly round a dome: at most so many, their mouths off their places by at most this
+/// share of the distance between them, the longest so much longer than the shortest.
+constexpr std::size_t kMaxStar = 6;
+constexpr double kStarSlack = 0.1;
+constexpr double kDome = 1.4;
 
 class PathFinder {
  public:
@@ -37,7 +47,8 @@ class PathFinder {
         isWire_(wireEdges(piece)),
         onWire_(wireVertices(mesh_, isWire_)),
         potential_(curvaturePotential(mesh_, FreeVertices(mesh_, onWire_))),
-        linker_(piece.mesh) {
+        linker_(piece.mesh),
+        mirror_(unfolding::findMirrorPlane(piece, kSymmetric)) {
     for (std::size_t e = 0; e < mesh_.edgeCount(); ++e) {
       if (mesh_.isBorder(EdgeId(e))) boundaryLength_ += mesh_.length(EdgeId(e));
     }
@@ -45,18 +56,34 @@ class PathFinder {
   }
 
   std::vector<Candidate> run() {
-    std::vector<Candidate> candidates;
+    std::vector<Candidate> candidates, stars;
+    bool isFirst = true;
     for (const VertexId apex : apexes()) {
       const std::vector<SurfacePath> ways = waysTo(apex);
-      if (potential_[apex] > 0) {
-        for (const SurfacePath& way : ways) addDart(apex, way, candidates);
-      } else {
+      if (potential_[apex] <= 0) {
         addCut(apex, ways, candidates);
+        continue;
       }
+      for (const SurfacePath& way : ways) addDarts(apex, {way}, candidates);
+      if (mirror_) {
+        for (const SurfacePath& way : ways) addPair(apex, way, candidates);
+      }
+      if (isFirst && options_.limit && !ways.empty()) addStars(apex, ways.front(), stars);
+      isFirst = false;
     }
-    std::stable_sort(
-        candidates.begin(), candidates.end(),
-        [](const Candidate& a, const Candidate& b) { return a.errorLeft < b.errorLeft; });
+    const bool hasSymmetric = std::any_of(candidates.begin(), candidates.end(),
+                                          [](const Candidate& c) { return c.isSymmetric; });
+    if (hasSymmetric) {
+      std::erase_if(candidates, [](const Candidate& c) { return c.bulge > 0 && !c.isSymmetric; });
+    }
+    // By what each dart gains.
+    const double now = areaErrorOf(mesh_, potential_);
+    const auto rank = [now](const Candidate& c) {
+      return std::log(c.errorLeft / now) / static_cast<double>(c.paths.size());
+    };
+    std::stable_sort(candidates.begin(), candidates.end(),
+                     [&](const Candidate& a, const Candidate& b) { return rank(a) < rank(b); });
+    candidates.insert(candidates.end(), stars.begin(), stars.end());
     return candidates;
   }
 
@@ -150,8 +177,10 @@ class PathFinder {
     for (std::size_t i = 0; i < mesh_.vertexCount(); ++i) {
       if (canBegin_[VertexId(i)] != 0 && distance[VertexId(i)] < kFar) mouths.emplace_back(i);
     }
-    std::stable_sort(mouths.begin(), mouths.end(),
-                     [&](VertexId a, VertexId b) { return distance[a] < distance[b]; });
+    std::stable_sort(mouths.begin(), mouths.end(), [&](VertexId a, VertexId b) {
+      const bool isMiddle = isOnMiddle(a);  // of a symmetric piece: looked at first
+      return isMiddle != isOnMiddle(b) ? isMiddle : distance[a] < distance[b];
+    });
     std::vector<SurfacePath> ways;
     std::vector<VertexId> taken;
     for (const VertexId mouth : mouths) {
@@ -202,26 +231,123 @@ class PathFinder {
     return true;
   }
 
-  /// How much area error stays when the faces along the path are at the boundary.
-  [[nodiscard]] double errorWith(const SurfacePath& path) const {
+  /// How much area error stays when the faces along the paths are at the boundary.
+  [[nodiscard]] double errorWith(const std::vector<SurfacePath>& paths) const {
     VertexData<char> held = onWire_;
-    for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
-      // The nearer end of each crossed edge stands for the path.
-      if (const auto* v = std::get_if<VertexId>(&path.points[i].at)) held[*v] = 1;
-      if (const auto* e = std::get_if<SurfacePoint::OnEdge>(&path.points[i].at)) {
-        held[e->t < 0.5 ? mesh_.tail(e->edge) : mesh_.head(e->edge)] = 1;
+    for (const SurfacePath& path : paths) {
+      for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
+        // The nearer end of each crossed edge stands for the path.
+        if (const auto* v = std::get_if<VertexId>(&path.points[i].at)) held[*v] = 1;
+        if (const auto* e = std::get_if<SurfacePoint::OnEdge>(&path.points[i].at)) {
+          held[e->t < 0.5 ? mesh_.tail(e->edge) : mesh_.head(e->edge)] = 1;
+        }
       }
     }
     return areaErrorOf(mesh_, curvaturePotential(mesh_, FreeVertices(mesh_, held)));
   }
 
-  void addDart(VertexId apex, const SurfacePath& way, std::vector<Candidate>& out) const {
-    const double whole = length(mesh_, way);
-    const double tip = std::min(options_.tipDistance.mm(), whole / 8);
-    SurfacePath path = shortened(way, whole - tip);
-    if (path.points.size() < 2) return;
-    const double left = errorWith(path);
-    out.push_back({std::move(path), apex, potential_[apex], whole - tip, left});
+  void addDarts(VertexId apex, const std::vector<SurfacePath>& ways, std::vector<Candidate>& out,
+                bool isStar = false) const {
+    Candidate candidate;
+    for (const SurfacePath& way : ways) {
+      const double whole = length(mesh_, way);
+      const double tip = std::min(options_.tipDistance.mm(), whole / 8);
+      candidate.paths.push_back(shortened(way, whole - tip));
+      if (candidate.paths.back().points.size() < 2) return;
+      candidate.length += whole - tip;
+    }
+    candidate.apex = apex;
+    candidate.bulge = potential_[apex];
+    candidate.errorLeft = errorWith(candidate.paths);
+    candidate.isSymmetric =
+        ways.size() == 1 && isOnMiddle(mouthOf(ways.front())) && isOnMiddle(apex);
+    candidate.isStar = isStar;
+    out.push_back(std::move(candidate));
+  }
+
+  /// The way and its mirror image.
+  void addPair(VertexId apex, const SurfacePath& way, std::vector<Candidate>& out) {
+    const VertexId mouth = mouthOf(way);
+    const std::optional<VertexId> mirrored = nearestMouth(mirrorImage(mesh_.position(mouth)));
+    const VertexId other = isOnMiddle(apex) ? apex : nearestFree(mirrorImage(position(apex)));
+    if (isOnMiddle(mouth) || !mirrored || *mirrored == mouth || !other.isValid()) return;
+    Result<SurfacePath> image = linker_.link({*mirrored}, {other});
+    if (!image || !staysFree(*image)) return;
+    addDarts(apex, {way, *std::move(image)}, out);
+    if (!out.empty() && out.back().paths.size() == 2) out.back().isSymmetric = true;
+  }
+
+  /// Darts spread evenly round a dome: from equal shares of its one outline, all about as long.
+  void addStars(VertexId apex, const SurfacePath& first, std::vector<Candidate>& out) {
+    const std::vector<std::vector<HalfedgeId>> loops = mesh_.boundaryLoops();
+    if (loops.size() != 1) return;
+    const double begin = along_[mouthOf(first)];
+    for (std::size_t count = 2; count <= kMaxStar; ++count) {
+      const double share = boundaryLength_ / static_cast<double>(count);
+      std::vector<SurfacePath> ways{first};
+      double least = length(mesh_, first), most = least;
+      for (std::size_t k = 1; k < count; ++k) {
+        const std::optional<VertexId> mouth =
+            mouthAt(loops.front(), begin + static_cast<double>(k) * share, kStarSlack * share);
+        if (!mouth) break;
+        Result<SurfacePath> way = linker_.link({*mouth}, {apex});
+        if (!way || !staysFree(*way)) break;
+        least = std::min(least, length(mesh_, *way));
+        most = std::max(most, length(mesh_, *way));
+        ways.push_back(*std::move(way));
+      }
+      if (ways.size() == count && most < kDome * least) addDarts(apex, ways, out, true);
+    }
+  }
+
+  static VertexId mouthOf(const SurfacePath& way) {
+    return std::get<VertexId>(way.points.front().at);
+  }
+  [[nodiscard]] const Eigen::Vector3d& position(VertexId v) const { return mesh_.position(v); }
+  [[nodiscard]] Eigen::Vector3d mirrorImage(const Eigen::Vector3d& p) const {
+    return p - 2 * (mirror_->normal.dot(p) - mirror_->offset) * mirror_->normal;
+  }
+  /// Of a symmetric piece: no farther from its middle than a share of its outline.
+  [[nodiscard]] bool isOnMiddle(VertexId v) const {
+    return mirror_ && std::abs(mirror_->normal.dot(mesh_.position(v)) - mirror_->offset) <
+                          kMiddle * boundaryLength_;
+  }
+  [[nodiscard]] std::optional<VertexId> nearestMouth(const Eigen::Vector3d& place) const {
+    std::optional<VertexId> nearest;
+    for (std::size_t i = 0; i < mesh_.vertexCount(); ++i) {
+      const VertexId v{i};
+      if (canBegin_[v] == 0) continue;
+      if (!nearest || (position(v) - place).norm() < (position(*nearest) - place).norm()) {
+        nearest = v;
+      }
+    }
+    return nearest;
+  }
+  [[nodiscard]] VertexId nearestFree(const Eigen::Vector3d& place) const {
+    VertexId nearest;
+    for (std::size_t i = 0; i < mesh_.vertexCount(); ++i) {
+      const VertexId v{i};
+      if (onWire_[v] != 0) continue;
+      if (!nearest.isValid() || (position(v) - place).norm() < (position(nearest) - place).norm()) {
+        nearest = v;
+      }
+    }
+    return nearest;
+  }
+  /// The vertex of a loop nearest to a place along it at which a dart may begin.
+  [[nodiscard]] std::optional<VertexId> mouthAt(const std::vector<HalfedgeId>& loop, double place,
+                                                double slack) const {
+    std::optional<VertexId> nearest;
+    double least = slack;
+    for (const HalfedgeId h : loop) {
+      const VertexId v = mesh_.from(h);
+      if (canBegin_[v] == 0) continue;
+      const double apart = std::abs(std::remainder(along_[v] - place, boundaryLength_));
+      if (apart >= least) continue;
+      least = apart;
+      nearest = v;
+    }
+    return nearest;
   }
 
   /// The first two ways that come from different sides, joined at the apex.
@@ -235,15 +361,15 @@ class PathFinder {
         path.points.push_back(ways[i].points[k]);
         path.faceOfSegment.push_back(ways[i].faceOfSegment[k]);
       }
-      const double left = errorWith(path);
-      out.push_back({path, apex, potential_[apex], length(mesh_, path), left});
+      const double left = errorWith({path});
+      out.push_back({{path}, apex, potential_[apex], length(mesh_, path), left});
       return;
     }
   }
 
   [[nodiscard]] Eigen::Vector3d directionAtEnd(const SurfacePath& path) const {
-    return (position(mesh_, path.points[path.points.size() - 2]) -
-            position(mesh_, path.points.back()))
+    return (toile::position(mesh_, path.points[path.points.size() - 2]) -
+            toile::position(mesh_, path.points.back()))
         .normalized();
   }
 
@@ -253,7 +379,8 @@ class PathFinder {
     double left = wanted;
     for (std::size_t i = 0; i + 1 < path.points.size(); ++i) {
       const double step =
-          (position(mesh_, path.points[i + 1]) - position(mesh_, path.points[i])).norm();
+          (toile::position(mesh_, path.points[i + 1]) - toile::position(mesh_, path.points[i]))
+              .norm();
       const FaceId face = path.faceOfSegment[i];
       cut.faceOfSegment.push_back(face);
       if (step >= left) {
@@ -277,6 +404,7 @@ class PathFinder {
   VertexData<char> onWire_;
   VertexData<double> potential_;
   GeodesicLinker linker_;
+  std::optional<unfolding::MirrorPlane> mirror_;
   double boundaryLength_ = 0;
   VertexData<char> canBegin_;
   VertexData<double> along_;

@@ -5,7 +5,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <optional>
+#include <tuple>
 #include <utility>
 
 #include "develop/dart_paths.h"
@@ -86,6 +88,10 @@ std::string describe(const DartProposal& proposal) {
   if (proposal.kind == DartProposal::Kind::Cut) {
     return fmt::format("cut or gusset, {:.0f} mm long", proposal.length);
   }
+  if (!proposal.companions.empty()) {
+    return fmt::format("{} darts, {:.0f} mm long together, {:.1f} mm wide at the widest mouth",
+                       proposal.dartCount(), proposal.length, proposal.intake);
+  }
   return fmt::format("dart, {:.0f} mm long, {:.1f} mm wide at its mouth", proposal.length,
                      proposal.intake);
 }
@@ -95,18 +101,32 @@ Result<std::vector<DartProposal>> adviseDarts(const Piece& piece, const FlatPiec
   if (const Result<void> valid = checkOptions(options); !valid) return valid.error();
   std::vector<DartProposal> proposals;
   const Patch patch = patchOf(piece);
+  const auto isEnough = [&](const DartProposal& proposal) {
+    return options.limit && proposal.errorAfter <= options.limit->value();
+  };
   std::array<std::size_t, 2> tried{};  // darts, cuts
   for (const Candidate& candidate : findCandidates(piece, options)) {
     if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "stopped", {}};
     DartProposal proposal;
-    proposal.path = candidate.path;
+    proposal.path = candidate.paths.front();
+    proposal.companions.assign(candidate.paths.begin() + 1, candidate.paths.end());
+    proposal.isSymmetric = candidate.isSymmetric;
     proposal.apex = candidate.apex;
     proposal.length = candidate.length;
     proposal.errorBefore = flat.meanAreaError;
     const bool isCut = candidate.bulge < 0;
-    if (tried[isCut ? 1 : 0]++ >= options.maxProposals) continue;
+    if (candidate.isStar) {
+      // Few darts are better than many: those that come after one that is enough are not tried.
+      if (std::any_of(proposals.begin(), proposals.end(), isEnough)) break;
+    } else if (tried[isCut ? 1 : 0]++ >= options.maxProposals) {
+      continue;
+    }
     if (isCut) proposal.kind = DartProposal::Kind::Cut;
-    const Result<Patch> with = addDart(patch, piece, candidate.path, "proposal");
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < candidate.paths.size(); ++i) {
+      ids.push_back(fmt::format("{}-{}", kProposal, i + 1));
+    }
+    const Result<Patch> with = addDarts(patch, piece, candidate.paths, ids);
     if (!with) continue;
     Result<Piece> opened = makePiece(piece.name, with->mesh, with->chains, with->targets);
     if (!opened) continue;
@@ -114,24 +134,35 @@ Result<std::vector<DartProposal>> adviseDarts(const Piece& piece, const FlatPiec
     const std::optional<Laid> laid = lay(*opened, options.unfold, progress);
     if (!laid) continue;
     proposal.errorAfter = laid->error;
-    if (!isCut) proposal.intake = intakeOf(*opened, laid->flats.front(), "proposal");
+    for (const std::string& id : ids) {
+      if (isCut) break;
+      proposal.intake = std::max(proposal.intake, intakeOf(*opened, laid->flats.front(), id));
+    }
     // What overlaps needs a line that opens it; strain comes second.
     const bool opens = laid->crossings < flat.check.crossings;
-    const bool strainsLess = proposal.errorAfter < (1 - kLeastHelp) * proposal.errorBefore;
+    const bool strainsLess =
+        proposal.errorAfter < std::pow(1 - kLeastHelp, proposal.dartCount()) * proposal.errorBefore;
     if (opens || (strainsLess && laid->crossings <= flat.check.crossings)) {
       proposals.push_back(std::move(proposal));
     }
   }
   // A cut makes two pieces of one: nobody wants it where a dart does.
+  const auto rank = [&](const DartProposal& p) {
+    const bool enough = isEnough(p);
+    const double gain = options.limit && !enough ? std::log(p.errorAfter / p.errorBefore) /
+                                                       static_cast<double>(p.dartCount())
+                                                 : p.errorAfter;
+    return std::tuple(p.kind, !enough, enough ? p.dartCount() : 0, gain);
+  };
   std::stable_sort(proposals.begin(), proposals.end(),
-                   [](const DartProposal& a, const DartProposal& b) {
-                     return std::pair(a.kind, a.errorAfter) < std::pair(b.kind, b.errorAfter);
-                   });
+                   [&](const DartProposal& a, const DartProposal& b) { return rank(a) < rank(b); });
   return proposals;
 }
 
 Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
                           const DartOptions& options, int maxDarts, Progress* progress) {
+  DartOptions wanted = options;
+  wanted.limit = limit;
   Result<Piece> piece = makePiece(name, patch.mesh, patch.chains, patch.targets);
   if (!piece) return piece.error();
   Result<ForcedError> forced = measureForcedError(*piece);
@@ -148,12 +179,13 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
                      flat->check.crossings > 0 ? ", and it lies on itself" : "", why),
          {}});
   };
+  std::size_t darts = 0;
   while (flat->meanAreaError > limit.value() || flat->check.crossings > 0) {
-    if (static_cast<int>(made.darts.size()) == maxDarts) {
-      stopBecause("dart-limit", fmt::format("{} darts are in already", maxDarts));
+    if (static_cast<int>(darts) >= maxDarts) {
+      stopBecause("dart-limit", fmt::format("{} darts are in already", darts));
       break;
     }
-    const auto proposals = adviseDarts(made.piece, *flat, options, progress);
+    const auto proposals = adviseDarts(made.piece, *flat, wanted, progress);
     if (!proposals) return proposals.error();
     if (proposals->empty()) {
       stopBecause("no-dart-helps",
@@ -170,8 +202,12 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
               describe(best));
       break;
     }
-    const std::string id = fmt::format("autodart-{}", made.darts.size() + 1);
-    Result<Patch> with = addDart(made.patch, made.piece, best.path, id);
+    std::vector<SurfacePath> paths = best.companions;
+    paths.insert(paths.begin(), best.path);
+    std::vector<std::string> ids;
+    for (std::size_t i = 0; i < paths.size(); ++i)
+      ids.push_back(fmt::format("autodart-{}", ++darts));
+    Result<Patch> with = addDarts(made.patch, made.piece, paths, ids);
     if (!with) return with.error();
     Result<Piece> opened = makePiece(name, with->mesh, with->chains, with->targets);
     if (!opened) return opened.error();
@@ -179,9 +215,9 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
     if (!after) return after.error();
     made.findings.push_back(
         {"auto-dart",
-         fmt::format("\"{}\": {}; mean area error {:.2f} -> {:.2f} %", id, describe(best),
-                     100 * flat->meanAreaError, 100 * after->meanAreaError),
-         {Element::curve(id)}});
+         fmt::format("\"{}\": {}; mean area error {:.2f} -> {:.2f} %", fmt::join(ids, "\", \""),
+                     describe(best), 100 * flat->meanAreaError, 100 * after->meanAreaError),
+         {Element::curve(ids.front())}});
     made.darts.push_back(best);
     made.patch = *std::move(with);
     made.piece = *std::move(opened);

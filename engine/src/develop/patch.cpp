@@ -65,7 +65,7 @@ void takeTargetSides(const Piece& from, const FaceData<FaceId>& source, Piece& t
   }
   const double scale = std::sqrt(targetArea / bodyArea);
   for (Wire& wire : to.wires) {
-    if (wire.kind != WireKind::Dart || wire.curve != "proposal") continue;
+    if (wire.kind != WireKind::Dart || !wire.curve.starts_with(kProposal)) continue;
     for (double& target : wire.targetLength) target *= scale;
   }
 }
@@ -137,39 +137,47 @@ SurfacePath onSameFaces(const Mesh& from, const SurfacePath& path, const Mesh& t
 
 }  // namespace
 
-Result<Patch> addDart(const Patch& patch, const Piece& piece, const SurfacePath& path,
-                      const std::string& id) {
-  const PlacedCurve dart{id, CurveKind::Dart, {}, onSameFaces(*piece.mesh, path, patch.mesh)};
-  Result<RefinedMesh> refined = refine(patch.mesh, std::span(&dart, 1));
+Result<Patch> addDarts(const Patch& patch, const Piece& piece, std::span<const SurfacePath> paths,
+                       std::span<const std::string> ids) {
+  std::vector<PlacedCurve> darts;
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    darts.push_back({ids[i], CurveKind::Dart, {}, onSameFaces(*piece.mesh, paths[i], patch.mesh)});
+  }
+  Result<RefinedMesh> refined = refine(patch.mesh, darts);
   if (!refined) return refined.error();
   const Mesh& mesh = refined->mesh;
   Patch with{mesh, patch.chains, patch.targets, refined->sourceFace};
   if (!patch.sourceFace.empty()) {
     for (FaceId& source : with.sourceFace.values()) source = patch.sourceFace[source];
   }
-  // The edges of the cut, in order from the mouth: each vertex has one behind it and one ahead.
-  std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertexCount());
-  for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
-    const CutEdgeId cutEdge = refined->cutEdge[EdgeId(e)];
-    if (!cutEdge.isValid() || refined->cutEdges[cutEdge.index()].kind != WireKind::Dart) continue;
-    neighbours[mesh.tail(EdgeId(e)).index()].push_back(mesh.head(EdgeId(e)).index());
-    neighbours[mesh.head(EdgeId(e)).index()].push_back(mesh.tail(EdgeId(e)).index());
-  }
-  const auto* mouth = std::get_if<VertexId>(&dart.path.points.front().at);
-  if (mouth == nullptr || neighbours[mouth->index()].size() != 1) {
-    return Error{ErrorCode::CurveInvalid, "a dart must begin at a vertex of the boundary", {}};
-  }
-  PolygonSoup::Chain chain{"wire_dart_" + id, {mouth->index()}, 0};
-  for (std::uint32_t before = mouth->index(), at = neighbours[before].front();;) {
-    chain.vertices.push_back(at);
-    if (chain.vertices.size() > mesh.vertexCount()) {
-      return Error{ErrorCode::CurveInvalid, "the dart \"" + id + "\" meets itself", {}};
+  for (std::size_t i = 0; i < darts.size(); ++i) {
+    // The edges of the cut, in order from the mouth: each vertex has one behind it and one ahead.
+    std::vector<std::vector<std::uint32_t>> neighbours(mesh.vertexCount());
+    for (std::size_t e = 0; e < mesh.edgeCount(); ++e) {
+      const CutEdgeId cutEdge = refined->cutEdge[EdgeId(e)];
+      if (!cutEdge.isValid()) continue;
+      const CutEdge& edge = refined->cutEdges[cutEdge.index()];
+      if (edge.kind != WireKind::Dart || edge.curve != i) continue;
+      neighbours[mesh.tail(EdgeId(e)).index()].push_back(mesh.head(EdgeId(e)).index());
+      neighbours[mesh.head(EdgeId(e)).index()].push_back(mesh.tail(EdgeId(e)).index());
     }
-    if (neighbours[at].size() < 2) break;
-    const std::uint32_t next = neighbours[at][0] == before ? neighbours[at][1] : neighbours[at][0];
-    before = std::exchange(at, next);
+    const auto* mouth = std::get_if<VertexId>(&darts[i].path.points.front().at);
+    if (mouth == nullptr || neighbours[mouth->index()].size() != 1) {
+      return Error{ErrorCode::CurveInvalid, "a dart must begin at a vertex of the boundary", {}};
+    }
+    PolygonSoup::Chain chain{"wire_dart_" + ids[i], {mouth->index()}, 0};
+    for (std::uint32_t before = mouth->index(), at = neighbours[before].front();;) {
+      chain.vertices.push_back(at);
+      if (chain.vertices.size() > mesh.vertexCount()) {
+        return Error{ErrorCode::CurveInvalid, "the dart \"" + ids[i] + "\" meets itself", {}};
+      }
+      if (neighbours[at].size() < 2) break;
+      const std::uint32_t next =
+          neighbours[at][0] == before ? neighbours[at][1] : neighbours[at][0];
+      before = std::exchange(at, next);
+    }
+    with.chains.push_back(std::move(chain));
   }
-  with.chains.push_back(std::move(chain));
   return with;
 }
 

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "pipeline/stages.h"
+#include "pipeline/unfold_options.h"
 #include "toile/cut/on_model.h"
 #include "toile/develop/darts.h"
 
@@ -84,50 +85,57 @@ Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
   std::set<std::size_t> done;
   for (std::size_t i = 0; i < pattern.cut.pieces.size(); ++i) {
     const Piece& piece = pattern.cut.pieces[i];
-    if (!piece.include || done.contains(i)) continue;
-    const auto known = cache.entries.find(stages::cacheKey(
-        contentHash(piece), options.unfold, stages::developOptions(pattern, piece, options)));
+    const std::optional<Ratio> limit = options.autoDart->of(*pattern.document.design, piece.id);
+    if (!piece.include || done.contains(i) || !limit) continue;
+    const UnfoldOptions own = unfoldOptionsOf(*pattern.document.design, piece, options.unfold);
+    const auto known = cache.entries.find(
+        stages::cacheKey(contentHash(piece), own, stages::developOptions(pattern, piece, options)));
     if (known == cache.entries.end() || !known->second.flat) continue;
     const FlatPiece& flat = *known->second.flat;
-    if (flat.meanAreaError <= options.autoDart->value() && flat.check.crossings == 0) continue;
+    if (flat.meanAreaError <= limit->value() && flat.check.crossings == 0) continue;
     if (progress != nullptr) progress->step("look for a dart in " + piece.name);
-    const auto proposals = adviseDarts(piece, flat, {.unfold = options.unfold}, progress);
+    const auto proposals = adviseDarts(piece, flat, {.unfold = own, .limit = limit}, progress);
     if (!proposals) return proposals.error().during("piece \"" + piece.name + "\"");
     if (proposals->empty()) {
       findings.push_back(
           {"no-dart-helps",
            fmt::format("piece \"{}\": {:.2f} % mean area error is left where {:.3g} % "
                        "is wanted; no dart or cut helps by a tenth",
-                       piece.name, 100 * flat.meanAreaError, options.autoDart->percent()),
+                       piece.name, 100 * flat.meanAreaError, limit->percent()),
            {Element::piece(piece.id)}});
       continue;
     }
     const DartProposal& best = proposals->front();
     const bool isDart = best.kind == DartProposal::Kind::Dart;
-    const std::string id = freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam", piece.id));
-    design.curves.push_back(makeCurveOnModel(piece, *model.mesh, best.path.points, id,
-                                             "proposed for " + piece.name,
-                                             isDart ? CurveKind::Dart : CurveKind::Seam));
-    added = true;
+    const char* const kind = isDart ? "dart" : "seam";
+    std::vector<SurfacePath> paths = best.companions;
+    paths.insert(paths.begin(), best.path);
     const std::size_t mirror = mirrorPiece(pattern, i);
     const bool isMirrored = mirror != kNone && !done.contains(mirror) &&
-                            (mirror != i || !liesOnPlane(piece, best.path, *model.symmetry));
-    if (isMirrored) {
+                            (mirror != i || (!best.isSymmetric && best.companions.empty() &&
+                                             !liesOnPlane(piece, best.path, *model.symmetry)));
+    std::vector<std::string> ids;
+    for (const SurfacePath& path : paths) {
+      ids.push_back(freeId(fmt::format("auto{}-{}", kind, piece.id)));
+      design.curves.push_back(makeCurveOnModel(piece, *model.mesh, path.points, ids.back(),
+                                               "proposed for " + piece.name,
+                                               isDart ? CurveKind::Dart : CurveKind::Seam));
+      if (!isMirrored) continue;
       StylingCurve image;
-      image.id =
-          freeId(fmt::format("auto{}-{}", isDart ? "dart" : "seam", pattern.cut.pieces[mirror].id));
+      image.id = freeId(fmt::format("auto{}-{}", kind, pattern.cut.pieces[mirror].id));
       image.name = "proposed for " + pattern.cut.pieces[mirror].name;
       image.kind = design.curves.back().kind;
-      image.mirrorOf = id;
+      image.mirrorOf = ids.back();
       design.curves.push_back(std::move(image));
       done.insert(mirror);
     }
+    added = true;
     findings.push_back(
         {"auto-dart",
          fmt::format("piece \"{}\": \"{}\"{}: {}; mean area error {:.2f} -> {:.2f} %", piece.name,
-                     id, isMirrored ? " and its mirror image" : "", describe(best),
-                     100 * best.errorBefore, 100 * best.errorAfter),
-         {Element::piece(piece.id), Element::curve(id)}});
+                     fmt::join(ids, "\", \""), isMirrored ? " and its mirror image" : "",
+                     describe(best), 100 * best.errorBefore, 100 * best.errorAfter),
+         {Element::piece(piece.id), Element::curve(ids.front())}});
   }
   if (added) pattern.document.design = std::make_shared<const Design>(std::move(design));
   return added;

@@ -192,7 +192,8 @@ std::optional<DevelopOptions> developOptions(const Pattern& pattern, const Piece
     return develop;
   }
   if (!options.autoDevelop) return std::nullopt;
-  develop.maxAreaError = options.autoDevelop;
+  develop.maxAreaError = options.autoDevelop->of(*pattern.document.design, piece.id);
+  if (!develop.maxAreaError) return std::nullopt;
   return develop;
 }
 

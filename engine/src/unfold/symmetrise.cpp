@@ -173,6 +173,14 @@ class Symmetriser {
     return std::move(result_);
   }
 
+  std::optional<unfolding::MirrorPlane> findPlane(double tolerance) const {
+    const Mirror mirror = findMirror(outline_);
+    if (!(mirror.distance <= tolerance) || !insideIsSymmetric(mirror, tolerance)) {
+      return std::nullopt;
+    }
+    return unfolding::MirrorPlane{mirror.normal, mirror.offset};
+  }
+
   std::optional<PieceSymmetry> runExactly() {
     const double size = std::sqrt(problem_.area);
     const std::optional<Mirror> mirror = findExactMirror(outline_, kExact * size);
@@ -462,6 +470,12 @@ namespace unfolding {
 
 std::optional<PieceSymmetry> findExactSymmetry(const Piece& piece, const Problem& problem) {
   return Symmetriser(piece, problem).runExactly();
+}
+
+std::optional<MirrorPlane> findMirrorPlane(const Piece& piece, double tolerance) {
+  const Result<Problem> problem = makeProblem(piece);
+  if (!problem) return std::nullopt;
+  return Symmetriser(piece, *problem).findPlane(tolerance * std::sqrt(problem->area));
 }
 
 }  // namespace unfolding

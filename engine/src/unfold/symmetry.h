@@ -10,6 +10,17 @@
 
 namespace toile::unfolding {
 
+struct MirrorPlane {
+  Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
+  double offset = 0;
+};
+
+/// The plane in which a piece is nearly its own mirror image.
+/// @param tolerance greatest distance of outline, inner wires and surface from their image, as a
+///   share of the root of the area.
+/// @return nothing for a piece that is not symmetric or cannot lie flat.
+[[nodiscard]] std::optional<MirrorPlane> findMirrorPlane(const Piece& piece, double tolerance);
+
 [[nodiscard]] MirrorTies tiesOf(const PieceSymmetry& symmetry, std::size_t vertexCount);
 
 /// The symmetry of a piece that is its own mirror image to rounding: outline with its points and

@@ -77,15 +77,29 @@ TEST(Darts, OpenAHemisphereUntilTheLimitHolds) {
   EXPECT_GT(made->errorBefore, 0.4);
   EXPECT_LE(made->flat->meanAreaError, 0.05);
   EXPECT_TRUE(made->flat->check.passes());
-  EXPECT_GE(made->darts.size(), 2U);
-  EXPECT_LE(made->darts.size(), 6U);
+  std::vector<double> turns;  // of the mouths round the pole
   for (const DartProposal& dart : made->darts) {
     EXPECT_EQ(dart.kind, DartProposal::Kind::Dart);
     EXPECT_GT(dart.intake, 10);
     EXPECT_LT(dart.errorAfter, 0.9 * dart.errorBefore);
+    std::vector<SurfacePath> paths = dart.companions;
+    paths.push_back(dart.path);
+    for (const SurfacePath& path : paths) {
+      const Eigen::Vector3d mouth = position(mesh, path.points.front());
+      turns.push_back(std::atan2(mouth.y(), mouth.x()));
+    }
+  }
+  // As a toy maker would put them: evenly round the equator.
+  ASSERT_GE(turns.size(), 2U);
+  EXPECT_LE(turns.size(), 6U);
+  std::sort(turns.begin(), turns.end());
+  turns.push_back(turns.front() + 2 * std::numbers::pi);
+  for (std::size_t i = 0; i + 1 < turns.size(); ++i) {
+    const double even = 2 * std::numbers::pi / static_cast<double>(turns.size() - 1);
+    EXPECT_NEAR(turns[i + 1] - turns[i], even, 0.1 * even);
   }
   // The two sides of a dart are sewn together: their edges have the same lengths.
-  for (std::size_t d = 1; d <= made->darts.size(); ++d) {
+  for (std::size_t d = 1; d < turns.size(); ++d) {
     std::vector<const Wire*> sides;
     for (const Wire& wire : made->piece.wires) {
       if (wire.curve == "autodart-" + std::to_string(d)) sides.push_back(&wire);
@@ -107,6 +121,37 @@ TEST(Darts, OpenAHemisphereUntilTheLimitHolds) {
   for (std::size_t v = 0; v < mesh.vertexCount(); ++v) {
     EXPECT_EQ(made->patch.mesh.position(VertexId(v)), mesh.position(VertexId(v)));
   }
+}
+
+/// Symmetric in x = 0, a ridge with its summit off the centre: lines come in pairs or on the
+/// middle.
+TEST(Darts, OfASymmetricPieceAreItsMirrorImages) {
+  const Mesh ridge = test::heightField(20, 20, 10, [](double x, double y) {
+    const double u = (x - 100) / 45, v = (y - 70) / 60;
+    return 60 * std::exp(-u * u - v * v);
+  });
+  const Piece piece = test::patchOf(ridge);
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  const auto proposals = adviseDarts(piece, *flat);
+  ASSERT_TRUE(proposals) << proposals.error();
+  ASSERT_FALSE(proposals->empty());
+  bool hasPair = false;
+  for (const DartProposal& proposal : *proposals) {
+    if (proposal.kind == DartProposal::Kind::Cut) continue;
+    EXPECT_TRUE(proposal.isSymmetric);
+    const Eigen::Vector3d mouth = position(ridge, proposal.path.points.front());
+    if (proposal.companions.empty()) {
+      EXPECT_NEAR(mouth.x(), 100, 5);
+      continue;
+    }
+    hasPair = true;
+    ASSERT_EQ(proposal.companions.size(), 1U);
+    const Eigen::Vector3d other = position(ridge, proposal.companions[0].points.front());
+    EXPECT_NEAR(mouth.x() + other.x(), 200, 1e-6);
+    EXPECT_NEAR(mouth.y(), other.y(), 1e-6);
+  }
+  EXPECT_TRUE(hasPair);
 }
 
 TEST(Darts, AreNotPutWhereNoneIsNeeded) {

@@ -60,6 +60,22 @@ TEST(FitTheLimit, LinesComeInPairsOnAVest) {
   EXPECT_EQ(writeReportJson(*again), writeReportJson(*darted));
 }
 
+TEST(FitTheLimit, DartsAreProposedForWovenClothToo) {
+  const Result<Document> vest = openDocument(exampleDesign("torso-vest.toile"));
+  ASSERT_TRUE(vest) << vest.error();
+  Design design = *vest->design;
+  ASSERT_FALSE(design.fabrics.empty());
+  design.fabrics.front().weights = ClothWeights{2, 1, 0.5, {}};
+  MakeOptions options;
+  options.autoDart = Ratio::percent(2.5);
+  const Result<Pattern> plain = makePattern(withDesign(*vest, design));
+  const Result<Pattern> darted = makePattern(withDesign(*vest, design), options);
+  ASSERT_TRUE(plain && darted);
+  ASSERT_GT(worstError(*plain), 0.025);
+  EXPECT_GE(count(*darted, "auto-dart"), 1U);
+  EXPECT_LE(worstError(*darted), 0.025);
+}
+
 TEST(FitTheLimit, APieceIsProcessedAsItsRecordSays) {
   const Document sleeve = sleeveDocument();
   const Result<Pattern> plain = makePattern(sleeve);
@@ -100,6 +116,28 @@ TEST(FitTheLimit, ProcessingByItselfSparesWhatIsGoodEnough) {
   ASSERT_TRUE(pattern->developed[0]) << "0.8 % is over the limit";
   EXPECT_FALSE(pattern->developed[1]) << "0.3 % is not";
   EXPECT_LE(worstError(*pattern), 0.005);
+}
+
+TEST(FitTheLimit, TheLimitCanBeThatOfEachFabric) {
+  const Document sleeve = sleeveDocument();
+  Design design = *sleeve.design;
+  Fabric stiff;
+  stiff.id = "stiff";
+  stiff.stretchAlong = Ratio::percent(4);
+  stiff.stretchAcross = Ratio::percent(0.5);
+  Fabric plain;
+  plain.id = "plain";
+  design.fabrics = {plain, stiff};
+  MakeOptions options;
+  options.autoDevelop = AreaLimit();
+  for (const char* fabric : {"plain", "stiff"}) {
+    for (PieceRecord& record : design.pieces) record.fabric = fabric;
+    const Result<Pattern> pattern = makePattern(withDesign(sleeve, design), options);
+    ASSERT_TRUE(pattern) << pattern.error();
+    EXPECT_EQ(pattern->developed[0] != nullptr, design.pieces[0].fabric == "stiff");
+    EXPECT_FALSE(pattern->developed[1]) << "0.3 % is not over the limit";
+    EXPECT_LE(worstError(*pattern), design.pieces[0].fabric == "stiff" ? 0.005 : 0.01);
+  }
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -30,19 +31,23 @@ struct ForcedError {
 /// @par Cost  one sparse factorisation
 [[nodiscard]] Result<ForcedError> measureForcedError(const Piece& piece);
 
-/// A line that would let a piece lie flat better.
+/// A line, or several that belong together, that would let a piece lie flat better.
 struct DartProposal {
   enum class Kind {
     Dart,  ///< from the boundary to a tip inside: cloth is taken out
     Cut    ///< from boundary to boundary: where cloth is missing, a dart would overlap
   };
   Kind kind = Kind::Dart;
-  SurfacePath path;        ///< on the piece's mesh, a dart's from its mouth to its tip
-  VertexId apex;           ///< what it aims at
-  double length = 0;       ///< mm: of seam that is added
-  double intake = 0;       ///< mm: how wide the mouth opens in the plane; 0 for a cut
-  double errorBefore = 0;  ///< mean area error
-  double errorAfter = 0;   ///< measured by unfolding; of a cut over both parts
+  SurfacePath path;  ///< on the piece's mesh, a dart's from its mouth to its tip
+  /// Further darts: the mirror image on a symmetric piece, or those spread evenly round the apex.
+  std::vector<SurfacePath> companions;
+  bool isSymmetric = false;  ///< all darts together are their own mirror image, as the piece is
+  VertexId apex;             ///< what it aims at
+  double length = 0;         ///< mm: of seam that is added, by all darts together
+  double intake = 0;         ///< mm: how wide the widest mouth opens in the plane; 0 for a cut
+  double errorBefore = 0;    ///< mean area error
+  double errorAfter = 0;     ///< measured by unfolding; of a cut over both parts
+  [[nodiscard]] std::size_t dartCount() const { return 1 + companions.size(); }
 };
 
 struct DartOptions {
@@ -50,11 +55,16 @@ struct DartOptions {
   std::size_t maxProposals = 6;  ///< 1..16: that are unfolded
   /// The tip stops before the apex by this, or by an eighth of the dart if that is less.
   Length tipDistance = Length::mm(15);
+  /// The mean area error that is good enough: proposals that reach it come first, those with the
+  /// fewest darts before the others, and several darts spread evenly round a dome are tried too.
+  std::optional<Ratio> limit{};
 };
 
-/// Darts for a piece that lies flat badly or on itself, those that leave the least error first, and
-/// after them cuts. They start at the boundary, not near its corners, cross no line of the piece
-/// and run straight on the surface to where the curvature weighs most.
+/// Darts for a piece that lies flat badly or on itself, and after them cuts; those that leave the
+/// least error first, or with a limit those that gain the most per dart. They start at the
+/// boundary, not near its corners, cross no line of the piece and run straight on the surface to
+/// where the curvature weighs most. On a piece that is its own mirror image they lie on its middle
+/// or come in pairs.
 ///
 /// @param flat of this piece.
 /// @return none if no line helps; errors of reading the piece only
@@ -73,17 +83,19 @@ struct Patch {
   FaceData<FaceId> sourceFace;  ///< of the mesh that it was read from; empty = its own
 };
 
-/// The patch with a dart along the path: faces are re-cut so that it runs along edges. Vertices
+/// The patch with darts along the paths: faces are re-cut so that they run along edges. Vertices
 /// stay, new ones come after them; a face's parts come in its place.
-/// @param path on the mesh of `piece`, which is makePiece() of the patch.
-Result<Patch> addDart(const Patch& patch, const Piece& piece, const SurfacePath& path,
-                      const std::string& id);
+/// @param paths on the mesh of `piece`, which is makePiece() of the patch; each begins at a vertex
+///   of the boundary.
+/// @param ids of the darts, one per path.
+Result<Patch> addDarts(const Patch& patch, const Piece& piece, std::span<const SurfacePath> paths,
+                       std::span<const std::string> ids);
 
 struct AutoDart {
   Patch patch;
   Piece piece;
   std::shared_ptr<const FlatPiece> flat;
-  std::vector<DartProposal> darts;  ///< that were put in, in their order
+  std::vector<DartProposal> darts;  ///< that were put in, in their order: "autodart-1", ...
   ForcedError forced;               ///< of the patch as it was
   double errorBefore = 0;
   std::vector<Finding> findings;  ///< each dart; why the limit is not met
