@@ -2,6 +2,7 @@
 #include "jobs/long_work.h"
 
 #include <QApplication>
+#include <QElapsedTimer>
 #include <QEventLoop>
 #include <QProgressDialog>
 #include <QTimer>
@@ -15,7 +16,7 @@ namespace toile::studio {
 namespace {
 
 constexpr int kSilence = 300;  // ms without a box
-constexpr int kTell = 100;     // ms between looks at the step
+constexpr int kLook = 15;      // ms between looks at the work
 
 class Told final : public Progress {
  public:
@@ -43,7 +44,6 @@ std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
   Told told;
   std::atomic<bool> ended = false;
   std::optional<std::string> fault;
-  QEventLoop silent, open;
   std::thread thread([&] {
     try {
       work(told);
@@ -51,17 +51,22 @@ std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
       fault = thrown.what();
     }
     ended = true;
-    QMetaObject::invokeMethod(
-        &silent, [&silent] { silent.quit(); }, Qt::QueuedConnection);
-    QMetaObject::invokeMethod(
-        &open, [&open] { open.quit(); }, Qt::QueuedConnection);
   });
+  QEventLoop loop;
+  QElapsedTimer clock;
+  clock.start();
+  bool isShown = false;
+  QTimer look;
+  QObject::connect(&look, &QTimer::timeout, &loop, [&] {
+    if (ended || (!isShown && clock.elapsed() >= kSilence)) loop.quit();
+  });
+  look.start(kLook);
   // Short work shows nothing, and nothing can be done meanwhile that it would not expect.
   QApplication::setOverrideCursor(Qt::WaitCursor);
-  QTimer::singleShot(kSilence, &silent, [&silent] { silent.quit(); });
-  silent.exec(QEventLoop::ExcludeUserInputEvents);
+  loop.exec(QEventLoop::ExcludeUserInputEvents);
   QApplication::restoreOverrideCursor();
   if (!ended) {
+    isShown = true;
     QProgressDialog box(title, QApplication::translate("LongWork", "Cancel"), 0, 0, parent);
     box.setObjectName(QStringLiteral("longWork"));
     box.setWindowModality(Qt::ApplicationModal);
@@ -72,13 +77,11 @@ std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
       box.setLabelText(QApplication::translate("LongWork", "%1\nStopping…").arg(title));
       box.show();  // until it has stopped
     });
-    QTimer look;
     QObject::connect(&look, &QTimer::timeout, &box, [&] {
       if (!told.isCancelled()) box.setLabelText(title + '\n' + told.stepName());
     });
-    look.start(kTell);
     box.show();
-    if (!ended) open.exec();
+    loop.exec();
   }
   thread.join();
   return fault;
