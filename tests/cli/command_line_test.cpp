@@ -43,7 +43,6 @@ const Case kCases[] = {
     {"MisspeltOption", {"--thraeds", "2"}, 2, "", "no option --thraeds; did you mean --threads?"},
     {"OptionLikeNothing", {"--qqqqqqqq"}, 2, "", "no option --qqqqqqqq ("},
     {"UnknownCommand", {"zzzzzzzzz"}, 2, "", "no command \"zzzzzzzzz\""},
-    {"CommandOfALaterVersion", {"warp", "a.ply", "b.ply"}, 2, "", "\"warp\" is not part of this"},
     {"NoThreads", {"--threads", "0"}, 2, "", "--threads: \"0\""},
     {"ThreadsInWords", {"--threads", "two"}, 2, "", "--threads: \"two\""},
     {"OptionWithoutValue", {"--threads"}, 2, "", "--threads"},

@@ -75,7 +75,7 @@ class Settler {
     double rigidWeight = wishes_.rigid.empty() ? kHardRigid : kSoftRigid;
     for (int round = 0; round < kRounds; ++round) {
       if (isCancelled(progress)) return std::nullopt;
-      const bool isChanged = hold(round == 0) || rigidWeight < kHardRigid || round == 0;
+      const bool isChanged = hold(round == 0) || rigidWeight != factorisedRigid_;
       if (isChanged) factorise(rigidWeight);
       if (!isSolvable_) break;
       const double moved = step(rigidWeight);
@@ -169,6 +169,7 @@ class Settler {
     Eigen::SparseMatrix<double> matrix(bending_.rows(), bending_.cols());
     matrix.setFromTriplets(entries.begin(), entries.end());
     matrix += bending_;
+    factorisedRigid_ = rigidWeight;
     if (!isAnalysed_) solver_.analyzePattern(matrix);
     isAnalysed_ = true;
     solver_.factorize(matrix);
@@ -260,6 +261,7 @@ class Settler {
   double path_ = 0;  ///< sum of the longest moves of all rounds, mm
   std::vector<Vector3d> now_;
   Eigen::SimplicialLDLT<Eigen::SparseMatrix<double>> solver_;
+  double factorisedRigid_ = 0;  ///< weight of rigid parts in the factor
   bool isAnalysed_ = false, isSolvable_ = true;
 };
 
