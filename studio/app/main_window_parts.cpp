@@ -367,6 +367,8 @@ void MainWindow::showTool() {
   actions_[QStringLiteral("tool-") + info.icon]->setChecked(true);
   for (std::size_t i = 0; i < std::size(kKinds); ++i) {
     kinds_[i]->setIcon(kindIcon(kKinds[i]));
+    // Tools with a number take lines as they are; it has the room, so that nothing leaves the bar.
+    kinds_[i]->setVisible(!session_.tool().setting());
     kinds_[i]->setChecked(kKinds[i] == session_.options().kind);
   }
   actions_["symmetry"]->setChecked(session_.options().symmetry);
