@@ -3,7 +3,6 @@
 #include <QApplication>
 #include <QCommandLineParser>
 #include <QSettings>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <cstdio>
 #include <memory>
@@ -14,13 +13,6 @@
 #include "toile/core/version.h"
 
 int main(int argc, char** argv) {
-  QSurfaceFormat format;
-  format.setVersion(3, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  format.setStencilBufferSize(8);
-  QSurfaceFormat::setDefaultFormat(format);
-
   QApplication app(argc, argv);
   QApplication::setApplicationName(QStringLiteral("toile-studio"));
   QApplication::setOrganizationName(QStringLiteral("toile"));

@@ -6,7 +6,6 @@
 // BODY is a mesh file in mm in place of the design's own; "" for that.
 #include <QApplication>
 #include <QProcess>
-#include <QSurfaceFormat>
 #include <QTimer>
 #include <algorithm>
 #include <cmath>
@@ -115,12 +114,6 @@ int drag(MainWindow& window, const QStringList& arguments) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  QSurfaceFormat format;
-  format.setVersion(3, 3);
-  format.setProfile(QSurfaceFormat::CoreProfile);
-  format.setDepthBufferSize(24);
-  format.setStencilBufferSize(8);
-  QSurfaceFormat::setDefaultFormat(format);
   QApplication app(argc, argv);
   applyTheme(app, Theme::Light);
   MainWindow window;
