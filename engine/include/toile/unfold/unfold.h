@@ -122,7 +122,8 @@ struct FlatPiece {
 /// @return the flat piece with its checks (the caller decides on crossings), or
 ///   NotADisk (one vertex per boundary loop), DegenerateFace, LengthsInfeasible (worst wires),
 ///   NotConverged, Cancelled.
-/// @par Cost  5 to 10 sparse factorisations of the mesh; see docs/unfolding.md
+/// @par Cost  at most one sparse factorisation of the mesh a step; steps are counted in
+/// docs/unfolding.md
 /// @see docs/unfolding.md for the objective and the solver.
 Result<FlatPiece> unfold(const Piece& piece, const UnfoldOptions& options = {},
                          Progress* progress = nullptr);
