@@ -295,7 +295,7 @@ Laplacian makeLaplacian(const Mesh& connectivity, const std::vector<Vector3d>& p
   const double least = 0.1 * laplacian.area.mean();
   laplacian.area = laplacian.area.cwiseMax(least);
   return laplacian;
-}
+}  // NOLINT(clang-analyzer-unix.Malloc): Eigen hands the arrays over with the value
 
 std::optional<std::vector<Vector3d>> settle(const Mesh& product, const std::vector<Vector3d>& start,
                                             const SurfaceIndex& body, const Wishes& wishes,
