@@ -17,14 +17,14 @@
 namespace toile {
 namespace {
 
-/// The outer side of a ring with round tube, 120 degrees of the ring and 100 of the tube, with a
+/// The outer side of a ring with round tube, 120 degrees of the ring and 120 of the tube, with a
 /// line along the middle: the article's patch.
 Mesh torusPatch(int columns = 24, int rows = 20) {
   const Mesh plane = test::grid(columns, rows, 1);
   std::vector<Eigen::Vector3d> at;
   for (const Eigen::Vector3d& p : plane.positions()) {
     const double u = (p.x() / columns - 0.5) * 2 * std::numbers::pi / 3;
-    const double v = (p.y() / rows - 0.5) * 100 * std::numbers::pi / 180;
+    const double v = (p.y() / rows - 0.5) * 120 * std::numbers::pi / 180;
     const double ring = 100 + 50 * std::cos(v);
     at.emplace_back(ring * std::cos(u), ring * std::sin(u), 50 * std::sin(v));
   }
@@ -98,7 +98,7 @@ TEST(Develop, ATorusPatchLiesFlatAndTellsThePrice) {
   const DevelopReport& report = developed->report;
   expectBorderUnmoved(piece, developed->piece);
   EXPECT_TRUE(developed->flat->check.passes());
-  EXPECT_GT(report.errorBefore, 0.03);
+  EXPECT_GT(report.errorBefore, 0.05);
   EXPECT_LT(report.errorAgainstProcessed, 0.25 * report.errorBefore);
   EXPECT_GT(report.errorAgainstOriginal, report.errorBefore);
   EXPECT_LT(report.totalDefect, report.totalDefectBefore);
