@@ -75,7 +75,7 @@ TEST(RandomEdits, NeverDamageADocument) {
     Document document{std::make_shared<const Design>(), shared};
     std::string context = "sequence " + std::to_string(sequence) + " on " + model.name + ": ";
     // Undo by value: every document of the sequence, and a copy of it from when it was new.
-    std::vector<std::pair<Document, Design>> hicontext{{document, *document.design}};
+    std::vector<std::pair<Document, Design>> history{{document, *document.design}};
     for (int i = 0; i < kEdits; ++i) {
       test::RandomEdits::Step step = edits.next(document);
       context += step.name + (step.document ? ", " : "!, ");
@@ -86,7 +86,7 @@ TEST(RandomEdits, NeverDamageADocument) {
       }
       const std::vector<std::string> sharing = test::sharingWith(*document.design, step.curve);
       document = *step.document;
-      hicontext.emplace_back(document, *document.design);
+      history.emplace_back(document, *document.design);
       if (step.name == "share" || step.name == "fair") {
         test::expectAllShared(document, linker, context);
       }
@@ -97,7 +97,7 @@ TEST(RandomEdits, NeverDamageADocument) {
       if (i % 5 == 4) test::expectSound(document, linker, context);
       if (testing::Test::HasFatalFailure()) return;
     }
-    for (const auto& [past, copy] : hicontext) {
+    for (const auto& [past, copy] : history) {
       ASSERT_TRUE(*past.design == copy) << context << " changed a document that was handed on";
     }
     for (const StylingCurve& curve : document.design->curves) {
