@@ -39,6 +39,20 @@ class SleevePattern : public testing::Test {
   static inline std::optional<Pattern> pattern_;
 };
 
+/// Tests that look at the finished wetsuit of 20 pieces: made once for all of them.
+class WetsuitPattern : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    const Result<Document> document = openDocument(exampleDesign("wetsuit-full.toile"));
+    ASSERT_TRUE(document) << document.error();
+    const Result<Pattern> made = makePattern(*document);
+    ASSERT_TRUE(made) << made.error();
+    pattern_ = *made;
+  }
+  static void TearDownTestSuite() { pattern_.reset(); }
+  static inline std::optional<Pattern> pattern_;
+};
+
 /// The document with another design on the same model.
 inline Document withDesign(const Document& document, Design design) {
   return {std::make_shared<const Design>(std::move(design)), document.model};

@@ -27,18 +27,8 @@ namespace {
 using Eigen::Vector2d;
 using testing::HasSubstr;
 
-/// The full suit, made once.
-class WetsuitMarker : public testing::Test {
+class WetsuitMarker : public WetsuitPattern {
  protected:
-  static void SetUpTestSuite() {
-    const Result<Document> document = openDocument(exampleDesign("wetsuit-full.toile"));
-    ASSERT_TRUE(document) << document.error();
-    Result<Pattern> pattern = makePattern(*document);
-    ASSERT_TRUE(pattern) << pattern.error();
-    pattern_ = *std::move(pattern);
-  }
-  static void TearDownTestSuite() { pattern_.reset(); }
-
   static std::vector<Marker> markers(MarkerOptions options) {
     options.nest.effort = 0;
     Result<std::vector<Marker>> made = makeMarkers({&*pattern_, 1}, options);
@@ -55,7 +45,6 @@ class WetsuitMarker : public testing::Test {
     }
     return area;
   }
-  static inline std::optional<Pattern> pattern_;
 };
 
 MarkerOptions folded() {

@@ -18,21 +18,18 @@ namespace {
 
 using testing::HasSubstr;
 
-class WetsuitFiles : public testing::Test {
+class WetsuitFiles : public WetsuitPattern {
  protected:
   static void SetUpTestSuite() {
-    const Result<Document> document = openDocument(exampleDesign("wetsuit-full.toile"));
-    ASSERT_TRUE(document) << document.error();
-    Result<Pattern> pattern = makePattern(*document);
-    ASSERT_TRUE(pattern) << pattern.error();
-    pattern_ = *std::move(pattern);
+    WetsuitPattern::SetUpTestSuite();
+    ASSERT_TRUE(pattern_);
     folder_ = std::make_unique<TemporaryFolder>();
     const Result<WrittenPattern> written = writePattern(*pattern_, folder_->path());
     ASSERT_TRUE(written) << written.error();
   }
   static void TearDownTestSuite() {
     folder_.reset();
-    pattern_.reset();
+    WetsuitPattern::TearDownTestSuite();
   }
   static std::string path(const std::string& name) { return folder_->path() / name; }
   static std::string run(const std::vector<std::string>& words) {
@@ -44,7 +41,6 @@ class WetsuitFiles : public testing::Test {
     if (runProgram({"which", program}).status == 0) return testing::AssertionSuccess();
     return testing::AssertionFailure() << program << " is not installed; ./test installs it";
   }
-  static inline std::optional<Pattern> pattern_;
   static inline std::unique_ptr<TemporaryFolder> folder_;
 };
 
