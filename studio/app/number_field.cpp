@@ -52,9 +52,9 @@ void NumberField::setUnit(LengthUnit unit) {
   if (!isEmpty_) setText(textOf(value_));
 }
 
-void NumberField::setOptional(const QString& placeholder) {
+void NumberField::setOptional(const QString& hint) {
   isOptional_ = true;
-  setPlaceholderText(placeholder);
+  setPlaceholderText(hint);
 }
 
 void NumberField::clearValue() {

@@ -25,7 +25,7 @@ class NumberField final : public QLineEdit {
   void setRange(double least, double most);
   void setUnit(LengthUnit unit);
   /// May be empty: "no limit". Then valueCleared() is sent.
-  void setOptional(const QString& placeholder);
+  void setOptional(const QString& hint);
   void clearValue();
 
  Q_SIGNALS:

@@ -10,11 +10,9 @@ namespace toile::studio {
 /// What tools of clicks share: the pointer, the first click, and the preview that goes with them.
 class ClickTool : public Tool {
  public:
-  void release(const PointerEvent&, ToolHost&) override {}
   bool key(ToolKey key, ToolHost& host) override;
   void leave(ToolHost& host) override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
 
  protected:
   std::optional<Snapped> first_;

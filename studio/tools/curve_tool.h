@@ -11,7 +11,6 @@ class CurveTool final : public Tool {
   [[nodiscard]] ToolId id() const override { return ToolId::Curve; }
   void press(const PointerEvent& event, ToolHost& host) override;
   void move(const PointerEvent& event, ToolHost& host) override;
-  void release(const PointerEvent&, ToolHost&) override {}
   void doubleClick(const PointerEvent& event, ToolHost& host) override;
   bool key(ToolKey key, ToolHost& host) override;
   void leave(ToolHost& host) override;

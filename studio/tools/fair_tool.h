@@ -20,7 +20,6 @@ class FairTool final : public Tool {
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
   [[nodiscard]] bool isBusy() const override { return dragging_; }
   [[nodiscard]] std::optional<ToolSetting> setting() const override;
   void set(double value, ToolHost& host) override;

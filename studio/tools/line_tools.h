@@ -16,12 +16,10 @@ class ExtendTool final : public Tool {
   [[nodiscard]] ToolId id() const override { return ToolId::Extend; }
   void press(const PointerEvent& event, ToolHost& host) override;
   void move(const PointerEvent& event, ToolHost& host) override;
-  void release(const PointerEvent&, ToolHost&) override {}
   bool key(ToolKey key, ToolHost& host) override;
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
 
  private:
   struct End {
@@ -45,7 +43,6 @@ class EraseTool final : public Tool {
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
   [[nodiscard]] bool isBusy() const override { return !curve_.empty(); }
 
  private:
@@ -67,7 +64,6 @@ class ParallelTool final : public Tool {
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
   [[nodiscard]] bool isBusy() const override { return dragging_; }
   [[nodiscard]] std::optional<ToolSetting> setting() const override;
   void set(double value, ToolHost& host) override;
@@ -89,12 +85,10 @@ class MirrorCopyTool final : public Tool {
   [[nodiscard]] ToolId id() const override { return ToolId::MirrorCopy; }
   void press(const PointerEvent& event, ToolHost& host) override;
   void move(const PointerEvent& event, ToolHost& host) override;
-  void release(const PointerEvent&, ToolHost&) override {}
   bool key(ToolKey key, ToolHost& host) override;
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
 
  private:
   void show(ToolHost& host) const;

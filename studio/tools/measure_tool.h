@@ -14,12 +14,10 @@ class MeasureTool final : public Tool {
   [[nodiscard]] ToolId id() const override { return ToolId::Measure; }
   void press(const PointerEvent& event, ToolHost& host) override;
   void move(const PointerEvent& event, ToolHost& host) override;
-  void release(const PointerEvent&, ToolHost&) override {}
   bool key(ToolKey key, ToolHost& host) override;
   void leave(ToolHost& host) override;
   [[nodiscard]] QString hint(const ToolHost& host) const override;
   [[nodiscard]] Overlay overlay(const ToolHost& host) const override;
-  [[nodiscard]] CursorShape cursor() const override { return CursorShape::Cross; }
 
  private:
   /// The shortest way from the first place to another.

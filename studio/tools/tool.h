@@ -117,7 +117,7 @@ class Tool {
   [[nodiscard]] virtual bool takesPress(const PointerEvent& event, ToolHost& host) const;
   virtual void press(const PointerEvent& event, ToolHost& host) = 0;
   virtual void move(const PointerEvent& event, ToolHost& host) = 0;  ///< also without a button
-  virtual void release(const PointerEvent& event, ToolHost& host) = 0;
+  virtual void release(const PointerEvent&, ToolHost&) {}
   virtual void doubleClick(const PointerEvent&, ToolHost&) {}
   /// @return whether the key meant something in this state.
   virtual bool key(ToolKey key, ToolHost& host) = 0;
@@ -127,7 +127,7 @@ class Tool {
   /// The status line, with keys between angle brackets: "<Enter> finish".
   [[nodiscard]] virtual QString hint(const ToolHost& host) const = 0;
   [[nodiscard]] virtual Overlay overlay(const ToolHost& host) const = 0;
-  [[nodiscard]] virtual CursorShape cursor() const = 0;
+  [[nodiscard]] virtual CursorShape cursor() const { return CursorShape::Cross; }
   [[nodiscard]] virtual std::optional<ToolSetting> setting() const { return std::nullopt; }
   /// The number was typed or its slider moved: what is under way follows.
   virtual void set(double, ToolHost&) {}
