@@ -35,9 +35,16 @@ WriteOptions writeOptions(const Arguments& arguments) {
   return options;
 }
 
-std::string describe(const Pattern& pattern, const Arguments& arguments) {
-  return fmt::format("{} piece{} in {}", pattern.pieces.size(),
-                     pattern.pieces.size() == 1 ? "" : "s", arguments.folder.string());
+std::string describe(const Pattern& pattern, const WrittenPattern& written,
+                     const Arguments& arguments) {
+  std::string text = fmt::format("{} piece{} in {}", pattern.pieces.size(),
+                                 pattern.pieces.size() == 1 ? "" : "s", arguments.folder.string());
+  for (const WrittenFile& file : written.files) {
+    const std::filesystem::path name = file.path.lexically_relative(arguments.folder);
+    if (name.has_parent_path()) continue;
+    text += fmt::format("\n  {:<14}{}", name.string(), file.purpose);
+  }
+  return text + fmt::format("\n  {:<14}{}", "pieces/", "each piece in 3D and flat, with its lines");
 }
 
 std::string describeForPrograms(const Pattern& pattern, const WrittenPattern& written) {
@@ -107,8 +114,8 @@ int run(const Arguments& arguments, const Session& session) {
     if (failure) fail(*failure);
   }
   if (!pattern->isComplete()) status = kFailed;
-  const std::string result =
-      session.json ? describeForPrograms(*pattern, *written) : describe(*pattern, arguments);
+  const std::string result = session.json ? describeForPrograms(*pattern, *written)
+                                          : describe(*pattern, *written, arguments);
   std::printf("%s\n", result.c_str());
   return status;
 }
