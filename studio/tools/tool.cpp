@@ -3,9 +3,12 @@
 
 #include "tools/click_tools.h"
 #include "tools/curve_tool.h"
+#include "tools/erase_tool.h"
+#include "tools/extend_tool.h"
 #include "tools/fair_tool.h"
-#include "tools/line_tools.h"
 #include "tools/measure_tool.h"
+#include "tools/mirror_copy_tool.h"
+#include "tools/parallel_tool.h"
 #include "tools/pencil_tool.h"
 #include "tools/select_tool.h"
 
