@@ -101,6 +101,14 @@ Result<void> makeOpen(const Arguments& arguments, const Session& session,
   for (std::size_t i = 0; i < orders.size(); ++i) {
     if (!findOutcome(arguments.design, orders[i], arguments.out)) open.push_back(i);
   }
+  // The larger the file the longer the order; a long one begun last would leave cores idle.
+  const auto bytes = [&](std::size_t order) {
+    std::error_code isNoFile;
+    const std::uintmax_t size = std::filesystem::file_size(orders[order].body, isNoFile);
+    return isNoFile ? 0 : size;
+  };
+  std::stable_sort(open.begin(), open.end(),
+                   [&](std::size_t a, std::size_t b) { return bytes(a) > bytes(b); });
   const std::size_t kept = orders.size() - open.size();
   if (kept > 0) progress.step(fmt::format("{} of {} orders are made already", kept, orders.size()));
   const std::size_t jobs = arguments.jobs > 0

@@ -105,7 +105,7 @@ TEST_F(Batch, IsResumedAfterAKillWithTheSameBytesAndNoWorkTwice) {
   pid_t process = -1;
   ASSERT_EQ(posix_spawn(&process, TOILE_EXECUTABLE, nullptr, nullptr, argv.data(), environ), 0);
   // One order is made, a later one is not.
-  for (int i = 0; i < 12'000 && !fs::exists(out / "chair" / "order.json"); ++i) {
+  for (int i = 0; i < 12'000 && !fs::exists(out / "anna" / "order.json"); ++i) {
     std::this_thread::sleep_for(std::chrono::milliseconds(10));
   }
   ASSERT_EQ(kill(process, SIGKILL), 0);
