@@ -149,6 +149,10 @@ void addMake(CLI::App& app, Session& session) {
             "Process pieces whose mean area error is greater than this, or fabric, boundary held, "
             "until it is not")
       ->type_name("RATIO");
+  addParsed(*command, "--symmetrise", arguments->options.symmetrise, parseRatio,
+            "Make pieces exactly symmetric that are so within this share of their size, such as "
+            "0.5%")
+      ->type_name("RATIO");
   command->add_flag("--save", arguments->save,
                     "Write the lines that --auto-cut and --auto-dart find into the design");
 }

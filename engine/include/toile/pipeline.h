@@ -41,6 +41,9 @@ struct MakeOptions {
   /// Processes pieces whose mean area error is greater (toile/develop/develop.h), unless their
   /// record says how.
   std::optional<AreaLimit> autoDevelop{};
+  /// Makes pieces symmetric whose outline is as near to its mirror image, as a share of the root of
+  /// their area: 0..0.2. Both sides of a seam get the lengths.
+  std::optional<Ratio> symmetrise{};
 };
 
 /// Solved pieces by content: what an edit did not touch is not solved again. Answers have no

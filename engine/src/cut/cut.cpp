@@ -7,6 +7,7 @@
 #include <map>
 
 #include "cut/anchors.h"
+#include "cut/cut_at.h"
 #include "cut/cut_findings.h"
 #include "cut/ease.h"
 #include "cut/piece_builder.h"
@@ -156,9 +157,14 @@ ContentHash contentHash(const Piece& piece) {
 
 Result<CutResult> cut(const Document& document, std::span<const PlacedCurve> curves,
                       Progress* progress) {
+  return cutting::cutAt(document, curves, {}, progress);
+}
+
+Result<CutResult> cutting::cutAt(const Document& document, std::span<const PlacedCurve> curves,
+                                 std::span<const SurfacePoint> points, Progress* progress) {
   const Mesh& model = *document.model->mesh;
   if (progress != nullptr) progress->step("cut");
-  Result<RefinedMesh> refinement = refine(model, curves);
+  Result<RefinedMesh> refinement = refineAt(model, curves, points);
   if (!refinement) return refinement.error();
   if (isCancelled(progress)) return Error{ErrorCode::Cancelled, "cutting was cancelled", {}};
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "cut/cut_at.h"
 #include "cut/face_segments.h"
 #include "cut/face_triangulation.h"
 #include "cut/joined_ends.h"
@@ -63,11 +64,13 @@ Node roundToLattice(const SurfacePoint& point) {
 
 class Refiner {
  public:
-  Refiner(const Mesh& mesh, std::span<const PlacedCurve> curves)
-      : mesh_(mesh), curves_(curves), table_(mesh), inFace_(mesh.faceCount()) {}
+  Refiner(const Mesh& mesh, std::span<const PlacedCurve> curves,
+          std::span<const SurfacePoint> points)
+      : mesh_(mesh), curves_(curves), points_(points), table_(mesh), inFace_(mesh.faceCount()) {}
 
   Result<RefinedMesh> run() {
     if (auto placed = placeSegments(); !placed) return placed.error();
+    placePoints();
     if (auto settled = settle(); !settled) return settled.error();
     numberNodes();
     if (splitLoneCuts()) numberNodes();
@@ -116,17 +119,25 @@ class Refiner {
     return {};
   }
 
-  Node insert(const Node& at) {
+  void placePoints() {
+    std::vector<Node> sorted;
+    for (const SurfacePoint& point : points_) sorted.push_back(roundToLattice(point));
+    std::sort(sorted.begin(), sorted.end());
+    // A node moves at most as far as segments are led through nodes, so that it stays on its curve.
+    for (const Node& at : sorted) insert(at, 0.5 * kMergeDistanceMm);
+  }
+
+  Node insert(const Node& at, double tolerance = kMergeDistanceMm) {
     switch (at.kind) {
       case Node::Kind::Vertex:
         return at;
       case Node::Kind::Edge:
-        return table_.insertOnEdge(EdgeId(at.element), at.p, kMergeDistanceMm);
+        return table_.insertOnEdge(EdgeId(at.element), at.p, tolerance);
       case Node::Kind::Face:
         break;
     }
     const FaceFrame frame(mesh_, FaceId(at.element));
-    return table_.insertInFace(frame, {at.p, at.q}, kMergeDistanceMm);
+    return table_.insertInFace(frame, {at.p, at.q}, tolerance);
   }
 
   /// Faces by rounds, because a node that one puts on an edge concerns the other. Which faces wait
@@ -415,6 +426,7 @@ class Refiner {
 
   const Mesh& mesh_;
   std::span<const PlacedCurve> curves_;
+  std::span<const SurfacePoint> points_;
   NodeTable table_;
   std::vector<std::vector<Segment>> inFace_;  ///< by face
   std::vector<Segment> alongEdges_;
@@ -426,7 +438,12 @@ class Refiner {
 }  // namespace
 
 Result<RefinedMesh> refine(const Mesh& mesh, std::span<const PlacedCurve> curves) {
-  return Refiner(mesh, curves).run();
+  return cutting::refineAt(mesh, curves, {});
+}
+
+Result<RefinedMesh> cutting::refineAt(const Mesh& mesh, std::span<const PlacedCurve> curves,
+                                      std::span<const SurfacePoint> points) {
+  return Refiner(mesh, curves, points).run();
 }
 
 }  // namespace toile

@@ -69,9 +69,9 @@ bool liesOnPlane(const Piece& piece, const SurfacePath& path, const Symmetry& sy
 
 }  // namespace
 
-Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
-                              const PatternCache& cache, std::vector<Finding>& findings,
-                              Progress* progress) {
+Result<bool> addProposedDarts(Pattern& pattern, const Symmetries& symmetries,
+                              const MakeOptions& options, const PatternCache& cache,
+                              std::vector<Finding>& findings, Progress* progress) {
   const ReferenceModel& model = *pattern.document.model;
   Design design = *pattern.document.design;
   std::set<std::string> taken;
@@ -87,13 +87,13 @@ Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
     const Piece& piece = pattern.cut.pieces[i];
     const std::optional<Ratio> limit = options.autoDart->of(*pattern.document.design, piece.id);
     if (!piece.include || done.contains(i) || !limit) continue;
-    const UnfoldOptions own = unfoldOptionsOf(*pattern.document.design, piece, options.unfold);
     const auto known = cache.entries.find(
-        stages::cacheKey(contentHash(piece), own, stages::developOptions(pattern, piece, options)));
+        stages::cacheKey(pattern, i, symmetryOf(pattern, symmetries, i), options));
     if (known == cache.entries.end() || !known->second.flat) continue;
     const FlatPiece& flat = *known->second.flat;
     if (flat.meanAreaError <= limit->value() && flat.check.crossings == 0) continue;
     if (progress != nullptr) progress->step("look for a dart in " + piece.name);
+    const UnfoldOptions own = unfoldOptionsOf(*pattern.document.design, piece, options.unfold);
     const auto proposals = adviseDarts(piece, flat, {.unfold = own, .limit = limit}, progress);
     if (!proposals) return proposals.error().during("piece \"" + piece.name + "\"");
     if (proposals->empty()) {

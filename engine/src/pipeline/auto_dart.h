@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "toile/pipeline.h"
+#include "pipeline/symmetric_pieces.h"
 
 namespace toile {
 
@@ -11,8 +11,8 @@ namespace toile {
 /// @param cache holds what the pieces were unfolded to
 /// @param findings gets one per line added, and why a piece stays over the limit
 /// @return whether there were any
-Result<bool> addProposedDarts(Pattern& pattern, const MakeOptions& options,
-                              const PatternCache& cache, std::vector<Finding>& findings,
-                              Progress* progress);
+Result<bool> addProposedDarts(Pattern& pattern, const Symmetries& symmetries,
+                              const MakeOptions& options, const PatternCache& cache,
+                              std::vector<Finding>& findings, Progress* progress);
 
 }  // namespace toile

@@ -46,10 +46,8 @@ Result<Pattern> LivePattern::State::preview(const Document& document,
   Pattern pattern;
   pattern.document = document;
   pattern.findings = document.model->findings;
-  if (const Result<void> done = stages::placeAndCut(pattern, progress); !done) return done.error();
-  if (options.autoCut) {
-    if (const Result<void> done = stages::cutOpen(pattern, progress); !done) return done.error();
-  }
+  const Result<Symmetries> symmetries = stages::placeAndCutOpen(pattern, options, progress);
+  if (!symmetries) return symmetries.error();
   pattern.findings.insert(pattern.findings.end(), pattern.cut.findings.begin(),
                           pattern.cut.findings.end());
   const std::vector<Piece>& pieces = pattern.cut.pieces;
@@ -57,9 +55,8 @@ Result<Pattern> LivePattern::State::preview(const Document& document,
   std::vector<std::pair<std::size_t, UnfoldPreview*>> work;
   for (const std::size_t i : stages::workOrder(pattern.cut)) {
     const UnfoldOptions own = unfoldOptionsOf(*document.design, pieces[i], options.unfold);
-    const ContentHash key = stages::cacheKey(contentHash(pieces[i]), own,
-                                             stages::developOptions(pattern, pieces[i], options));
-    const auto found = cache.entries.find(key);
+    const auto found = cache.entries.find(
+        stages::cacheKey(pattern, i, symmetryOf(pattern, *symmetries, i), options));
     if (found != cache.entries.end()) {
       entries[i] = &found->second;
       continue;

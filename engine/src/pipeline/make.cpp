@@ -16,23 +16,26 @@ void append(std::vector<Finding>& all, const std::vector<Finding>& more) {
 }
 
 /// Unfolds, adds a dart to each piece over the limit and cuts again, while that helps.
-Result<void> putInDarts(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
-                        Progress* progress) {
+Result<void> putInDarts(Pattern& pattern, Symmetries& symmetries, const MakeOptions& options,
+                        PatternCache& cache, Progress* progress) {
   MakeOptions plain = options;
   plain.autoDevelop = std::nullopt;
   for (int round = 0; round < kMaxAutoDartRounds; ++round) {
     const std::size_t told = pattern.findings.size();
-    stages::unfoldPieces(pattern, plain, cache, progress);
+    stages::unfoldPieces(pattern, symmetries, plain, cache, progress);
     pattern.findings.resize(told);  // they are told of the final pieces
     if (isCancelled(progress)) return stages::cancelled();
     std::vector<Finding> findings;
-    const Result<bool> added = addProposedDarts(pattern, plain, cache, findings, progress);
+    const Result<bool> added =
+        addProposedDarts(pattern, symmetries, plain, cache, findings, progress);
     if (!added) return added.error();
     // Why a piece stays over the limit is told once, when no more darts come.
     std::erase_if(findings, [&](const Finding& f) { return *added && f.code != "auto-dart"; });
     append(pattern.findings, findings);
     if (!*added) break;
-    if (const Result<void> done = stages::placeAndCut(pattern, progress); !done) return done;
+    Result<Symmetries> again = stages::placeAndCut(pattern, options, progress);
+    if (!again) return again.error();
+    symmetries = *std::move(again);
   }
   return {};
 }
@@ -52,16 +55,15 @@ Result<Pattern> makePattern(const Document& document, const MakeOptions& options
   pattern.document = document;
   append(pattern.findings, document.model->findings);
   const auto run = [&]() -> Result<void> {
-    if (Result<void> done = stages::placeAndCut(pattern, progress); !done) return done;
-    if (options.autoCut) {
-      if (Result<void> done = stages::cutOpen(pattern, progress); !done) return done;
-    }
+    Result<Symmetries> symmetries = stages::placeAndCutOpen(pattern, options, progress);
+    if (!symmetries) return symmetries.error();
     if (options.autoDart) {
-      if (Result<void> done = putInDarts(pattern, options, known, progress); !done) return done;
+      const Result<void> done = putInDarts(pattern, *symmetries, options, known, progress);
+      if (!done) return done;
     }
     append(pattern.findings, pattern.cut.findings);
     if (isCancelled(progress)) return stages::cancelled();
-    stages::unfoldPieces(pattern, options, known, progress);
+    stages::unfoldPieces(pattern, *symmetries, options, known, progress);
     if (isCancelled(progress)) return stages::cancelled();
     if (Result<void> done = stages::finishPieces(pattern, progress); !done) return done;
     return stages::arrangePieces(pattern, progress);

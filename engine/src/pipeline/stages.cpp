@@ -9,6 +9,7 @@
 
 #include "pipeline/elastics.h"
 #include "pipeline/symmetric_lines.h"
+#include "pipeline/symmetric_pieces.h"
 #include "pipeline/twins.h"
 #include "pipeline/unfold_options.h"
 #include "toile/core/content_hash.h"
@@ -105,7 +106,17 @@ std::shared_ptr<const DevelopedPiece> named(const std::shared_ptr<const Develope
   return own;
 }
 
-PatternCache::Entry solve(const Piece& piece, const UnfoldOptions& options,
+Result<FlatPiece> unfoldAs(const PieceSymmetry* symmetry, const Piece& piece,
+                           const UnfoldOptions& options, Progress* progress) {
+  if (symmetry == nullptr) return unfold(piece, options, progress);
+  SymmetricPiece symmetric;
+  symmetric.piece = piece;
+  symmetric.symmetry = *symmetry;
+  return unfold(symmetric, options, progress);
+}
+
+PatternCache::Entry solve(const Piece& piece, const PieceSymmetry* symmetry,
+                          const UnfoldOptions& options,
                           const std::optional<DevelopOptions>& processing, Progress* progress) {
   PatternCache::Entry entry;
   if (processing) {
@@ -114,13 +125,17 @@ PatternCache::Entry solve(const Piece& piece, const UnfoldOptions& options,
       entry.error = developed.error();
       return entry;
     }
+    if (symmetry != nullptr) {
+      Result<FlatPiece> flat = unfoldAs(symmetry, developed->piece, options, progress);
+      if (flat) developed->flat = std::make_shared<const FlatPiece>(*std::move(flat));
+    }
     entry.flat = developed->flat;
     if (developed->amount > 0 || !developed->findings.empty()) {
       entry.developed = std::make_shared<const DevelopedPiece>(*std::move(developed));
     }
     return entry;
   }
-  Result<FlatPiece> flat = unfold(piece, options, progress);
+  Result<FlatPiece> flat = unfoldAs(symmetry, piece, options, progress);
   if (flat) {
     entry.flat = std::make_shared<const FlatPiece>(*std::move(flat));
   } else {
@@ -139,30 +154,42 @@ std::string quoted(const Piece& piece) {
   return fmt::format("piece \"{}\"", piece.name.empty() ? piece.id : piece.name);
 }
 
-Result<void> placeAndCut(Pattern& pattern, Progress* progress) {
+Result<Symmetries> placeAndCut(Pattern& pattern, const MakeOptions& options, Progress* progress) {
   const Design& design = *pattern.document.design;
   tell(progress, fmt::format("place {} curve{} on the model", design.curves.size(),
                              design.curves.size() == 1 ? "" : "s"));
   Result<std::vector<PlacedCurve>> curves = placeCurves(design, *pattern.document.model);
   if (!curves) return curves.error();
   if (isCancelled(progress)) return cancelled();
-  makeLinesSymmetric(pattern.document, *curves);
+  makeLinesSymmetric(pattern.document, options.symmetrise.has_value(), *curves);
   Result<CutResult> result = cut(pattern.document, *curves, progress);
   if (!result) return result.error();
   pattern.curves = std::move(*curves);
   pattern.cut = std::move(*result);
+  std::erase_if(pattern.findings, [](const Finding& finding) {  // of a cut before
+    return finding.code == "made-symmetric" || finding.code == "not-symmetric" ||
+           finding.code == "no-twins";
+  });
+  Symmetries symmetries;
+  if (options.symmetrise) {
+    Result<Symmetries> made = makePiecesSymmetric(pattern, *options.symmetrise, progress);
+    if (!made) return made.error();
+    symmetries = *std::move(made);
+  }
   makeTwins(pattern);
-  return {};
+  return symmetries;
 }
 
-Result<void> cutOpen(Pattern& pattern, Progress* progress) {
-  for (int round = 0; round < kMaxAutoCutRounds; ++round) {
+Result<Symmetries> placeAndCutOpen(Pattern& pattern, const MakeOptions& options,
+                                   Progress* progress) {
+  Result<Symmetries> symmetries = placeAndCut(pattern, options, progress);
+  for (int round = 0; symmetries && options.autoCut && round < kMaxAutoCutRounds; ++round) {
     const Result<bool> added = addProposedCuts(pattern, pattern.findings);
     if (!added) return added.error();
     if (!*added) break;
-    if (const Result<void> done = placeAndCut(pattern, progress); !done) return done.error();
+    symmetries = placeAndCut(pattern, options, progress);
   }
-  return {};
+  return symmetries;
 }
 
 std::vector<std::size_t> workOrder(const CutResult& cut) {
@@ -197,10 +224,17 @@ std::optional<DevelopOptions> developOptions(const Pattern& pattern, const Piece
   return develop;
 }
 
-ContentHash cacheKey(const ContentHash& piece, const UnfoldOptions& options,
-                     const std::optional<DevelopOptions>& develop) {
+ContentHash cacheKey(const Pattern& pattern, std::size_t index, const PieceSymmetry* symmetry,
+                     const MakeOptions& makeOptions) {
+  const Piece& piece = pattern.cut.pieces[index];
+  const UnfoldOptions options =
+      unfoldOptionsOf(*pattern.document.design, piece, makeOptions.unfold);
+  const std::optional<DevelopOptions> develop = developOptions(pattern, piece, makeOptions);
   ContentHasher hasher;
-  hasher.add(piece)
+  if (symmetry != nullptr) {
+    for (const auto& [right, left] : symmetry->pairs) hasher.add(right.index()).add(left.index());
+  }
+  hasher.add(contentHash(piece))
       .add(options.objective)
       .add(options.weights)
       .add(options.areaWeight)
@@ -267,8 +301,8 @@ void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>
   takeProcessedTargets(pattern);
 }
 
-void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& cache,
-                  Progress* progress) {
+void unfoldPieces(Pattern& pattern, const Symmetries& symmetries, const MakeOptions& options,
+                  PatternCache& cache, Progress* progress) {
   settleElastics(pattern, options, progress);
   const Design& design = *pattern.document.design;
   const std::vector<Piece>& pieces = pattern.cut.pieces;
@@ -286,8 +320,7 @@ void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& ca
   };
   for (const std::size_t i : order) {
     if (isMirrored(i)) continue;
-    keys[i] = cacheKey(contentHash(pieces[i]), unfoldOptionsOf(design, pieces[i], options.unfold),
-                       processing[i]);
+    keys[i] = cacheKey(pattern, i, symmetryOf(pattern, symmetries, i), options);
     const auto found = cache.entries.find(keys[i]);
     if (found == cache.entries.end()) continue;
     found->second.lastUsed = cache.patterns;
@@ -303,8 +336,8 @@ void unfoldPieces(Pattern& pattern, const MakeOptions& options, PatternCache& ca
     tell(progress,
          fmt::format("unfold {} ({} of {})", pieces[i].name.empty() ? pieces[i].id : pieces[i].name,
                      number, order.size()));
-    fresh[i] = solve(pieces[i], unfoldOptionsOf(design, pieces[i], options.unfold), processing[i],
-                     progress);
+    fresh[i] = solve(pieces[i], symmetryOf(pattern, symmetries, i),
+                     unfoldOptionsOf(design, pieces[i], options.unfold), processing[i], progress);
   });
   for (const std::size_t i : order) {
     if (entries[i] != nullptr || isMirrored(i)) continue;

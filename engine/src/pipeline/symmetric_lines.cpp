@@ -39,6 +39,7 @@ class LineMirror {
       begin = isFirst ? 0 : middle[0];
       end = isFirst ? middle[0] : count - 1;
     }
+    if (!isNearly(path, mirrored)) return;
     SurfacePath whole;
     whole.closed = path.closed;
     const auto addHalf = [&] {
@@ -66,6 +67,21 @@ class LineMirror {
     to.points.push_back(from.points[point % from.points.size()]);
     to.faceOfSegment.push_back(from.faceOfSegment[segment % from.faceOfSegment.size()]);
   }
+  /// Whether every point of the path has one of its image nearby.
+  [[nodiscard]] bool isNearly(const SurfacePath& path, const SurfacePath& mirrored) const {
+    std::vector<Eigen::Vector3d> image;
+    double step = 0;
+    for (const SurfacePoint& p : mirrored.points) {
+      image.push_back(position(*model_.mesh, p));
+      if (image.size() > 1) step = std::max(step, (image.back() - image[image.size() - 2]).norm());
+    }
+    return std::all_of(path.points.begin(), path.points.end(), [&](const SurfacePoint& point) {
+      const Eigen::Vector3d p = position(*model_.mesh, point);
+      return std::any_of(image.begin(), image.end(), [&](const Eigen::Vector3d& q) {
+        return (p - q).norm() <= kSameEnd + step;
+      });
+    });
+  }
   [[nodiscard]] double distance(const SurfacePoint& a, const SurfacePoint& b) const {
     return (position(*model_.mesh, a) - position(*model_.mesh, b)).norm();
   }
@@ -85,18 +101,23 @@ class LineMirror {
 
 }  // namespace
 
-void makeLinesSymmetric(const Document& document, std::vector<PlacedCurve>& curves) {
+void makeLinesSymmetric(const Document& document, bool symmetricPieces,
+                        std::vector<PlacedCurve>& curves) {
   const ReferenceModel& model = *document.model;
   const Design& design = *document.design;
+  if (!model.symmetry || model.symmetry->partner.empty()) return;
+  double side = 1;
   const auto twin = std::find_if(design.pieces.begin(), design.pieces.end(),
                                  [](const PieceRecord& r) { return r.twin.has_value(); });
-  if (twin == design.pieces.end() || !model.symmetry || model.symmetry->partner.empty()) return;
-  const PieceRecord* original = recordOf(design, twin->twin->of);
-  if (original == nullptr) return;
-  const Result<SurfacePoint> anchor = resolvePlace(original->anchor, model, curves);
-  if (!anchor) return;
-  const double side =
-      model.symmetry->normal.dot(position(*model.mesh, *anchor)) - model.symmetry->offset;
+  if (twin != design.pieces.end()) {
+    const PieceRecord* original = recordOf(design, twin->twin->of);
+    if (original == nullptr) return;
+    const Result<SurfacePoint> anchor = resolvePlace(original->anchor, model, curves);
+    if (!anchor) return;
+    side = model.symmetry->normal.dot(position(*model.mesh, *anchor)) - model.symmetry->offset;
+  } else if (!symmetricPieces) {
+    return;
+  }
   const LineMirror mirror(model, side < 0 ? -1 : 1);
   for (PlacedCurve& curve : curves) mirror.makeSymmetric(curve.path);
 }

@@ -17,9 +17,8 @@ namespace {
 using Eigen::Vector3d;
 using unfolding::Problem;
 
-/// An axis or a point of the other side this near to a vertex, as a share of the edges there, is
-/// the vertex: no slivers.
-constexpr double kSameVertex = 0.05;
+/// Ends of lines this near to each other, as a share of half the outline, are mirror images.
+constexpr double kSameEnd = 0.03;
 /// Points of the outline that are compared with it.
 constexpr std::size_t kSamples = 160;
 constexpr std::size_t kInsideSamples = 64;
@@ -81,6 +80,16 @@ Mirror refined(const std::vector<Vector3d>& outline, Mirror mirror) {
     mirror.offset = mirror.normal.dot(middle / count);
   }
   return best;
+}
+
+/// The mirror with the greatest distance of the outline from its image in it.
+Mirror measured(const std::vector<Vector3d>& outline, Mirror mirror) {
+  const std::size_t step = 1 + outline.size() / kSamples;
+  for (std::size_t i = 0; i < outline.size(); i += step) {
+    const Vector3d image = outline[i] - 2 * mirror.side(outline[i]) * mirror.normal;
+    mirror.distance = std::max(mirror.distance, (image - nearestOnOutline(outline, image)).norm());
+  }
+  return mirror;
 }
 
 /// Planes in which an outline may be symmetric: through its centre, across an axis of space or of
@@ -153,7 +162,13 @@ class Symmetriser {
     for (const auto& edge : problem.wireEdges) {
       targets[std::minmax(edge.a, edge.b)] = edge.target;
     }
+    std::vector<char> endsHere(piece.mesh->vertexCount(), 0);
+    for (const Wire& wire : piece.wires) {
+      if (wire.vertices.empty() || wire.vertices.front() == wire.vertices.back()) continue;
+      endsHere[wire.vertices.front().index()] = endsHere[wire.vertices.back().index()] = 1;
+    }
     for (std::size_t i = 0; i < loop_.size(); ++i) {
+      isWireEnd_.push_back(endsHere[loop_[i]]);
       target_.push_back(targets.at(std::minmax(loop_[i], loop_[(i + 1) % loop_.size()])));
       outline_.push_back(piece.mesh->position(VertexId(loop_[i])));
     }
@@ -181,6 +196,26 @@ class Symmetriser {
     return unfolding::MirrorPlane{mirror.normal, mirror.offset};
   }
 
+  std::optional<unfolding::OutlineSymmetry> compare(const unfolding::MirrorPlane& plane,
+                                                    double tolerance, double sameVertex) {
+    sameVertex_ = sameVertex;
+    const Mirror mirror = measured(outline_, {plane.normal, plane.offset, 0});
+    if (!(mirror.distance <= tolerance) || !insideIsSymmetric(mirror, tolerance)) {
+      return std::nullopt;
+    }
+    std::vector<OutlinePoint> forward, backward;
+    if (!matchHalves(mirror, forward, backward)) return std::nullopt;
+    makePoints(forward, backward);
+    unfolding::OutlineSymmetry found{mirror.distance, {}, {}};
+    for (std::size_t e = 0; e < splits_.size(); ++e) {
+      for (const auto& [t, vertex] : splits_[e]) {
+        found.missing.push_back({VertexId(loop_[e]), VertexId(loop_[after(e)]), t});
+      }
+    }
+    if (found.missing.empty()) found.symmetry = std::move(result_.symmetry);
+    return found;
+  }
+
   std::optional<PieceSymmetry> runExactly() {
     const double size = std::sqrt(problem_.area);
     const std::optional<Mirror> mirror = findExactMirror(outline_, kExact * size);
@@ -200,8 +235,8 @@ class Symmetriser {
   [[nodiscard]] std::size_t after(std::size_t i) const { return (i + 1) % loop_.size(); }
   /// The same point as its vertex where it is near to one.
   [[nodiscard]] OutlinePoint snapped(std::size_t edge, double t) const {
-    if (t < kSameVertex) return {edge, 0, 0};
-    if (t > 1 - kSameVertex) return {after(edge), 0, 0};
+    if (t < sameVertex_) return {edge, 0, 0};
+    if (t > 1 - sameVertex_) return {after(edge), 0, 0};
     return {edge, t, 0};
   }
 
@@ -214,7 +249,40 @@ class Symmetriser {
     backward = half(ends[1], ends[0]);
     std::reverse(backward.begin(), backward.end());
     for (OutlinePoint& p : backward) p.at = 1 - p.at;
+    alignWireEnds(forward, backward);
     return mergePoints(forward, backward);
+  }
+
+  /// Where a line ends on both sides at nearly the same place, it ends at the same place: shares
+  /// between such ends are counted from end to end. So they do not depend on what lies beyond, and
+  /// the two pieces along a seam agree on them.
+  void alignWireEnds(const std::vector<OutlinePoint>& forward,
+                     std::vector<OutlinePoint>& backward) const {
+    const auto isEnd = [&](const OutlinePoint& p) { return p.t == 0 && isWireEnd_[p.edge] != 0; };
+    std::vector<std::pair<double, double>> anchors{{0, 0}};  // at of both halves
+    std::size_t next = 1;
+    for (std::size_t i = 1; i + 1 < forward.size(); ++i) {
+      if (!isEnd(forward[i])) continue;
+      std::size_t nearest = 0;
+      double least = kSameEnd;
+      for (std::size_t j = next; j + 1 < backward.size(); ++j) {
+        const double apart = std::abs(forward[i].at - backward[j].at);
+        if (!isEnd(backward[j]) || apart >= least) continue;
+        least = apart;
+        nearest = j;
+      }
+      if (nearest == 0) continue;
+      anchors.emplace_back(forward[i].at, backward[nearest].at);
+      next = nearest + 1;
+    }
+    anchors.emplace_back(1, 1);
+    std::size_t run = 0;
+    for (OutlinePoint& p : backward) {
+      while (run + 2 < anchors.size() && p.at >= anchors[run + 1].second) ++run;
+      const auto& [a, b] = anchors[run];
+      const auto& [c, d] = anchors[run + 1];
+      p.at = p.at == b ? a : a + (p.at - b) * (c - a) / (d - b);
+    }
   }
 
   /// Whether inner wires and the surface are their own mirror images too.
@@ -294,9 +362,9 @@ class Symmetriser {
     std::vector<OutlinePoint> mergedA{a.front()}, mergedB{b.front()};
     std::size_t i = 1, j = 1;
     while (i + 1 < a.size() || j + 1 < b.size()) {
-      const double nearA = kSameVertex * std::min(a[i].at - a[i - 1].at,
+      const double nearA = sameVertex_ * std::min(a[i].at - a[i - 1].at,
                                                   i + 1 < a.size() ? a[i + 1].at - a[i].at : 1);
-      const double nearB = kSameVertex * std::min(b[j].at - b[j - 1].at,
+      const double nearB = sameVertex_ * std::min(b[j].at - b[j - 1].at,
                                                   j + 1 < b.size() ? b[j + 1].at - b[j].at : 1);
       const double gap = a[i].at - b[j].at;
       if (i + 1 < a.size() && j + 1 < b.size() && std::abs(gap) < std::min(nearA, nearB)) {
@@ -459,6 +527,8 @@ class Symmetriser {
   const std::vector<std::uint32_t>& loop_;
   std::vector<double> target_;  ///< per edge of the loop
   std::vector<Vector3d> outline_;
+  double sameVertex_ = unfolding::kSameVertex;
+  std::vector<char> isWireEnd_;                          ///< per vertex of the loop
   std::vector<std::map<double, std::uint32_t>> splits_;  ///< per edge of the loop: t, new vertex
   std::vector<Vector3d> positions_;
   SymmetricPiece result_;
@@ -476,6 +546,14 @@ std::optional<MirrorPlane> findMirrorPlane(const Piece& piece, double tolerance)
   const Result<Problem> problem = makeProblem(piece);
   if (!problem) return std::nullopt;
   return Symmetriser(piece, *problem).findPlane(tolerance * std::sqrt(problem->area));
+}
+
+std::optional<OutlineSymmetry> compareHalves(const Piece& piece, const MirrorPlane& plane,
+                                             double tolerance, double sameVertex) {
+  const Result<Problem> problem = makeProblem(piece);
+  if (!problem) return std::nullopt;
+  return Symmetriser(piece, *problem)
+      .compare(plane, tolerance * std::sqrt(problem->area), sameVertex);
 }
 
 }  // namespace unfolding

@@ -21,6 +21,29 @@ struct MirrorPlane {
 /// @return nothing for a piece that is not symmetric or cannot lie flat.
 [[nodiscard]] std::optional<MirrorPlane> findMirrorPlane(const Piece& piece, double tolerance);
 
+/// An outline beside its mirror image.
+struct OutlineSymmetry {
+  double asymmetry = 0;  ///< mm: greatest distance of the outline from its mirror image
+  /// Places on edges of the outline at which the other side has a vertex and this one has none.
+  struct Point {
+    VertexId from, to;
+    double t = 0;  ///< 0 < t < 1, from `from`
+  };
+  std::vector<Point> missing;
+  PieceSymmetry symmetry;  ///< when nothing is missing
+};
+
+/// An axis or a point of the other side this near to a vertex, as a share of the edges there, is
+/// the vertex: no slivers.
+inline constexpr double kSameVertex = 0.02;
+
+/// @param tolerance as for findMirrorPlane()
+/// @return nothing for a piece that is not symmetric in this plane or cannot lie flat.
+[[nodiscard]] std::optional<OutlineSymmetry> compareHalves(const Piece& piece,
+                                                           const MirrorPlane& plane,
+                                                           double tolerance,
+                                                           double sameVertex = kSameVertex);
+
 [[nodiscard]] MirrorTies tiesOf(const PieceSymmetry& symmetry, std::size_t vertexCount);
 
 /// The symmetry of a piece that is its own mirror image to rounding: outline with its points and
