@@ -241,6 +241,9 @@ SurfacePath Strip::path() const {
     path.faceOfSegment.push_back(commonFace(mesh_, start_, end_));
     return path;
   }
+  const auto hasEnd = [&](std::size_t i, VertexId vertex) {
+    return portals_[i].leftVertex == vertex || portals_[i].rightVertex == vertex;
+  };
   const auto append = [&](const SurfacePoint& point, FaceId face) {
     if (point == path.points.back()) return;
     path.points.push_back(point);
@@ -248,16 +251,29 @@ SurfacePath Strip::path() const {
   };
   Point tip = startPlace_;
   std::size_t corner = 0;
+  std::size_t open = 0;  // portals from here on may still be passed at a vertex instead
   for (std::size_t i = 0; i < crossings_.size(); ++i) {
-    const FaceId face = mesh_.face(crossings_[i]);
-    if (corner < corners_.size() && i == corners_[corner].first) {
-      append({corners_[corner].vertex}, face);
+    const bool hasCorner = corner < corners_.size();
+    if (hasCorner && i == corners_[corner].first) {
+      append({corners_[corner].vertex}, mesh_.face(crossings_[i]));
       i = corners_[corner].last;
       tip = corners_[corner++].place;
+      open = i + 1;
       continue;
     }
-    const Point& goal = corner < corners_.size() ? corners_[corner].place : endPlace_;
-    append(pointOnPortal(i, tip, goal), face);
+    const SurfacePoint point =
+        pointOnPortal(i, tip, hasCorner ? corners_[corner].place : endPlace_);
+    std::size_t first = i;
+    if (const auto* vertex = std::get_if<VertexId>(&point.at)) {
+      // All portals that end there are passed there, whatever rounding makes of each of them.
+      const std::size_t end = hasCorner ? corners_[corner].first : crossings_.size();
+      while (first > open && hasEnd(first - 1, *vertex)) --first;
+      path.points.resize(path.points.size() - (i - first), start_);
+      path.faceOfSegment.resize(path.faceOfSegment.size() - (i - first));
+      while (i + 1 < end && hasEnd(i + 1, *vertex)) ++i;
+      open = i + 1;
+    }
+    append(point, mesh_.face(crossings_[first]));
   }
   append(end_, mesh_.face(mesh_.opposite(crossings_.back())));
   return path;

@@ -244,6 +244,32 @@ TEST(Geodesic, AcceptsEndsCloseToVerticesAndEdges) {
   }
 }
 
+// A way at the very edge of going through a vertex, whose spokes are of very different lengths,
+// goes through it for all of them or for none: never from the vertex back to a spoke.
+TEST(Geodesic, PassesAVertexForAllSpokesOrNone) {
+  const std::vector<Vector3d> star{{0, 0, 0},   {-12, -6, 0},    {0, -1, 0},
+                                   {12, -6, 0}, {12, 6, 0},      {3, 5, 0},
+                                   {0, 1, 0},   {-0.2, 0.15, 0}, {-12, 6, 0}};
+  std::vector<Triangle> spokes;
+  for (std::size_t i = 1; i <= 8; ++i) {
+    spokes.push_back({VertexId(0), VertexId(i), VertexId(i % 8 + 1)});
+  }
+  const Result<Mesh> made = makeMesh(star, spokes);
+  ASSERT_TRUE(made) << made.error();
+  const auto mesh = share(*made);
+  GeodesicLinker linker(mesh);
+  for (int step = 0; step < 400; ++step) {
+    const double above = std::pow(10.0, -14 + 0.015 * step) * (step % 2 == 0 ? 1 : -1);
+    const double up = 5.0 / 12 + above / 12, down = 5.0 / 12 - above / 12;
+    const SurfacePoint left = makeSurfacePoint(*mesh, FaceId(7), {1.0 / 6, up, down}),
+                       right = makeSurfacePoint(*mesh, FaceId(2), {1.0 / 6, down, up});
+    const Result<SurfacePath> path = linker.link(left, right);
+    ASSERT_TRUE(path) << path.error();
+    ASSERT_TRUE(isValid(*mesh, *path));
+    EXPECT_LE(geodesicDefect(*mesh, *path), 1e-9) << above << " mm above the vertex";
+  }
+}
+
 TEST(Geodesic, MovesWithTheMesh) {
   // Without symmetry: where two ways are equally long, rounding may choose.
   const Eigen::Matrix3d skew{{1, 0.13, 0.31}, {0.07, 1.1, 0.05}, {0.02, 0.17, 0.9}};
