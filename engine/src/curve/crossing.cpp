@@ -42,21 +42,11 @@ class Finder {
       : mesh_(mesh), a_(a), b_(b), isSelf_(&a == &b) {}
 
   std::vector<PathMeeting> find() {
-    // The segments of B by face, of faces that A passes.
-    std::vector<FaceId> ofA = a_.faceOfSegment;
-    std::sort(ofA.begin(), ofA.end());
-    std::vector<std::pair<FaceId, std::size_t>> ofB;
-    for (std::size_t j = 0; j < b_.faceOfSegment.size(); ++j) {
-      // A segment along an edge lies in the faces on both sides.
-      for (const FaceId face : facesOf(j)) {
-        if (std::binary_search(ofA.begin(), ofA.end(), face)) ofB.emplace_back(face, j);
-      }
-    }
-    std::sort(ofB.begin(), ofB.end());
-    for (std::size_t i = 0; i < a_.faceOfSegment.size() && !ofB.empty(); ++i) {
-      const FaceId face = a_.faceOfSegment[i];
-      auto at = std::lower_bound(ofB.begin(), ofB.end(), std::pair(face, std::size_t{0}));
-      for (; at != ofB.end() && at->first == face; ++at) meet(i, at->second, face);
+    const std::vector<SegmentInFace> ofA = segmentsByFace(a_), ofB = segmentsByFace(b_);
+    auto from = ofB.begin();
+    for (const auto& [face, i] : ofA) {
+      while (from != ofB.end() && from->first < face) ++from;
+      for (auto at = from; at != ofB.end() && at->first == face; ++at) meet(i, at->second, face);
     }
     // Paths may touch at a vertex without a common face.
     const auto verticesOf = [](const SurfacePath& path) {
@@ -90,19 +80,36 @@ class Finder {
     return *arcsB_;
   }
 
-  [[nodiscard]] std::vector<FaceId> facesOf(std::size_t j) const {
-    std::vector<FaceId> both{b_.faceOfSegment[j]};
-    const SurfacePoint& p = b_.points[j];
-    const SurfacePoint& q = b_.points[(j + 1) % b_.points.size()];
-    // Through the inside of a face no segment runs along an edge.
+  using SegmentInFace = std::pair<FaceId, std::size_t>;
+
+  /// The faces that a path passes, in order, with the segments in them: those of its own, and of a
+  /// segment along an edge also the one on the other side.
+  [[nodiscard]] std::vector<SegmentInFace> segmentsByFace(const SurfacePath& path) const {
+    std::vector<SegmentInFace> row;
+    row.reserve(path.faceOfSegment.size());
+    for (std::size_t i = 0; i < path.faceOfSegment.size(); ++i) {
+      const FaceId own = path.faceOfSegment[i];
+      row.emplace_back(own, i);
+      const SurfacePoint& p = path.points[i];
+      const SurfacePoint& q = path.points[(i + 1) % path.points.size()];
+      if (!mayRunAlongEdge(p, q)) continue;
+      for (const FaceId face : facesOf(mesh_, p)) {
+        if (face != own && touches(mesh_, q, face)) row.emplace_back(face, i);
+      }
+    }
+    std::sort(row.begin(), row.end());
+    return row;
+  }
+
+  /// Through the inside of a face, or between two edges, no segment runs along an edge.
+  static bool mayRunAlongEdge(const SurfacePoint& p, const SurfacePoint& q) {
+    using OnEdge = SurfacePoint::OnEdge;
     if (std::holds_alternative<SurfacePoint::InFace>(p.at) ||
         std::holds_alternative<SurfacePoint::InFace>(q.at)) {
-      return both;
+      return false;
     }
-    for (const FaceId f : toile::facesOf(mesh_, p)) {
-      if (f != both.front() && touches(mesh_, q, f)) both.push_back(f);
-    }
-    return both;
+    const auto *a = std::get_if<OnEdge>(&p.at), *b = std::get_if<OnEdge>(&q.at);
+    return a == nullptr || b == nullptr || a->edge == b->edge;
   }
 
   void meet(std::size_t i, std::size_t j, FaceId face) {

@@ -120,6 +120,29 @@ TEST(Meetings, SegmentsWithoutLengthMeetNothingElse) {
   EXPECT_EQ(findMeetings(mesh, through, on).size(), 1U);
 }
 
+// A segment along an edge is in both faces of the edge, whichever of them it names.
+TEST(Meetings, OfASegmentAlongAnEdgeAreInBothFaces) {
+  const Mesh mesh = test::icosphere(100, 1);
+  const EdgeId edge(7);
+  const HalfedgeId h = mesh.halfedge(edge);
+  const FaceId faces[]{mesh.face(h), mesh.face(mesh.opposite(h))};
+  const auto on = [&](double t) { return SurfacePoint{SurfacePoint::OnEdge{edge, t}}; };
+  for (const FaceId beside : faces) {
+    // Ends inside the face, on the edge but for rounding.
+    const double hair = 1e-14;
+    Eigen::Vector3d weights = 0.6 * barycentricIn(mesh, on(0.4), beside);
+    weights += 0.4 * barycentricIn(mesh, on(0.9), beside);
+    for (int k = 0; k < 3; ++k) weights[k] = std::max(weights[k], hair);
+    const SurfacePoint nearEdge{SurfacePoint::InFace{beside, weights / weights.sum()}};
+    const SurfacePath ending{{makeSurfacePoint(mesh, beside, {1, 1, 1}), nearEdge}, {beside}};
+    for (const FaceId named : faces) {
+      const SurfacePath along{{on(0.3), on(0.8)}, {named}};
+      EXPECT_EQ(findMeetings(mesh, along, ending).size(), 1U);
+      EXPECT_EQ(findMeetings(mesh, ending, along).size(), 1U);
+    }
+  }
+}
+
 TEST(Curvature, OfCirclesOnAPlaneAndABall) {
   const auto plane = std::make_shared<const Mesh>(test::irregularGrid(40, 40, 5));
   const SurfaceIndex index(plane);
