@@ -9,8 +9,8 @@ namespace toile::detail {
 /// it and its mirror image go straight into each other.
 [[nodiscard]] bool beginsSquare(const Sketch& sketch, const WorkCurve& curve);
 
-/// Makes the first link of an open curve that begins on the middle line leave it square: by its
-/// first data point, or by a new one where that is a control point, another line's, or far away.
+/// Makes an open curve that begins on the middle line leave it square, and bend from there into
+/// what it was: over its first part, as far as no control point and no other line holds it.
 void beginSquare(Sketch& sketch, const std::string& id, WorkCurve& curve);
 
 }  // namespace toile::detail

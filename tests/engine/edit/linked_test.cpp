@@ -57,7 +57,7 @@ void expectSmoothOnTheMiddle(const Document& document) {
     const SurfacePath corner{{half.points[i - 1], half.points[i], half.points[i + 1]},
                              {half.faceOfSegment[i - 1], half.faceOfSegment[i]},
                              false};
-    EXPECT_LT(geodesicDefect(mesh, corner), 18 * EIGEN_PI / 180) << arc << " mm from the middle";
+    EXPECT_LT(geodesicDefect(mesh, corner), 15 * EIGEN_PI / 180) << arc << " mm from the middle";
   }
 }
 
