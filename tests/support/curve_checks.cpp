@@ -111,45 +111,6 @@ void expectAllShared(const Document& document, GeodesicLinker& linker, const std
           const Vector3d place = position(mesh, *toSurfacePoint(mesh, point));
           least = std::min(least, (place - position(mesh, meeting.point)).norm());
         }
-        if (!(least < 10 * kSameMeeting)) {
-          for (const std::size_t c : {a, b}) {
-            const PlacedCurve& placedCurve = (*placed)[c];
-            fprintf(stderr, "curve %s closed %d mirrorOf %s, %zu data\n", curves[c].id.c_str(),
-                    curves[c].closed, curves[c].mirrorOf.value_or("-").c_str(),
-                    curves[c].dataPoints.size());
-            double arc = 0;
-            std::size_t d = 0;
-            const SurfacePath& path = placedCurve.path;
-            for (std::size_t k = 0; k < path.points.size(); ++k) {
-              const SurfacePoint& p = path.points[k];
-              const Vector3d x = position(mesh, p);
-              bool isData = d < placedCurve.dataPoints.size() && p == placedCurve.dataPoints[d];
-              if (isData) ++d;
-              if (std::abs(arc - (c == a ? meeting.a : meeting.b)) < 12) {
-                if (const auto* f = std::get_if<SurfacePoint::InFace>(&p.at)) {
-                  fprintf(stderr, "f%u %.17g %.17g %.17g ", f->face.index(), f->barycentric[0],
-                          f->barycentric[1], f->barycentric[2]);
-                }
-                if (const auto* e = std::get_if<SurfacePoint::OnEdge>(&p.at)) {
-                  fprintf(stderr, "e%u %.17g", e->edge.index(), e->t);
-                }
-                fprintf(stderr, " %s pt %zu arc %.17g kind %zu  %.17g %.17g %.17g",
-                        isData ? "D" : " ", k, arc, p.at.index(), x[0], x[1], x[2]);
-                if (isData) {
-                  auto& o = curves[c == a ? b : a].dataPoints;
-                  fprintf(stderr, " %s",
-                          std::find(o.begin(), o.end(), toModelPoint(mesh, p)) != o.end() ? "SHARED"
-                                                                                          : "");
-                }
-                fprintf(stderr, "\n");
-              }
-              if (k + 1 < path.points.size())
-                arc += (position(mesh, path.points[k + 1]) - x).norm();
-            }
-          }
-          const Vector3d x = position(mesh, meeting.point);
-          fprintf(stderr, "meeting %.17g %.17g %.17g\n", x[0], x[1], x[2]);
-        }
         ASSERT_LT(least, 10 * kSameMeeting)
             << context << ": " << curves[a].id << " and " << curves[b].id << " at " << meeting.a
             << " and " << meeting.b;
