@@ -86,7 +86,9 @@ std::optional<Placed> Filler::findPlace(const Copy& copy, std::span<const Placed
           moveTo(clearOf(bin_.blocked[s], row + rows - 1, 0, x));
         for (std::size_t i = first.checked; i < placed.size() && x + shape.width < bestEnd; ++i) {
           const Placed& other = placed[i];
-          if (other.sheet != sheet) continue;
+          if (other.sheet != sheet || other.row >= row + rows ||
+              other.row + shapes_[other.shape].rows.count() <= row)
+            continue;
           moveTo(clearOf(noFit_.of(other.shape, s), row - other.row + rows - 1, other.x, x));
         }
         first.checked = isFree ? placed.size() : 0;
@@ -160,14 +162,14 @@ std::optional<Fill> searchFill(const Filler& filler, int rounds,
   if (copies.size() < 2) return best;
 
   // Each round tries a few changes of the order at once and takes the best of them, at first even
-  // if it is a little worse: threshold accepting.
+  // if it is a little worse: threshold accepting. A search of few rounds has no time for detours.
   constexpr std::size_t kTries = 8;
-  constexpr double kFirstThreshold = 0.004;
+  const double firstThreshold = std::min(0.004, 1e-5 * rounds);
   Fill current = *best;
   for (int round = 0; round < rounds; ++round) {
     if (isCancelled(progress)) break;
     const double left = 1 - static_cast<double>(round) / rounds;
-    const double most = current.value * (1 + kFirstThreshold * left * left);
+    const double most = current.value * (1 + firstThreshold * left * left);
     std::array<Fill, kTries> tries;
     std::array<char, kTries> isDone{};
     parallelFor(kTries, [&](std::size_t t) {
