@@ -7,6 +7,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "io/pdf_update.h"
 
@@ -14,6 +15,7 @@ namespace toile {
 namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
+constexpr int kFirstPlaceholder = 7;  // columns
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
@@ -36,6 +38,7 @@ struct PdfCanvas::State {
   std::unique_ptr<cairo_t, Deleter<cairo_destroy>> cairo;
   std::unique_ptr<PangoLayout, Deleter<g_object_unref>> layout;
   std::unique_ptr<PangoFontDescription, Deleter<pango_font_description_free>> font;
+  std::vector<PngImage> images;
 };
 
 PdfCanvas::PdfCanvas() : state_(std::make_unique<State>()) {
@@ -215,7 +218,7 @@ double PdfCanvas::textFromLeft(const Eigen::Vector2d& baseline, double size,
   return width;
 }
 
-void PdfCanvas::fill(const std::vector<Points2>& loops, double grey) {
+void PdfCanvas::fill(const std::vector<Points2>& loops, const Ink& ink) {
   cairo_t* cairo = state_->cairo.get();
   for (const Points2& loop : loops) {
     if (loop.size() < 3) continue;
@@ -229,35 +232,33 @@ void PdfCanvas::fill(const std::vector<Points2>& loops, double grey) {
     }
     cairo_close_path(cairo);
   }
-  cairo_set_source_rgb(cairo, grey, grey, grey);
+  cairo_set_source_rgba(cairo, ink.red, ink.green, ink.blue, ink.opacity);
   cairo_set_fill_rule(cairo, CAIRO_FILL_RULE_EVEN_ODD);
   cairo_fill(cairo);
 }
 
 double PdfCanvas::image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,
                         double mostHeight) {
-  const auto read = [](void* rest, unsigned char* data, unsigned int size) {
-    auto& bytes = *static_cast<std::string_view*>(rest);
-    if (bytes.size() < size) return CAIRO_STATUS_READ_ERROR;
-    std::copy_n(bytes.begin(), size, data);
-    bytes.remove_prefix(size);
-    return CAIRO_STATUS_SUCCESS;
-  };
-  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> picture(
-      cairo_image_surface_create_from_png_stream(read, &png));
-  if (cairo_surface_status(picture.get()) != CAIRO_STATUS_SUCCESS) return 0;
-  const double columns = cairo_image_surface_get_width(picture.get());
-  const double rows = cairo_image_surface_get_height(picture.get());
-  const double mmPerDot = std::min(width / columns, mostHeight / rows);
-  cairo_t* cairo = state_->cairo.get();
+  std::optional<PngImage> picture = parsePng(png);
+  if (!picture) return 0;
+  const double aspect = static_cast<double>(picture->rows) / picture->columns;
+  const double height = std::min(width * aspect, mostHeight);
+  // The library would pack the picture anew, which takes longer than all else of a document. It
+  // draws one row of as many dots as no other picture has, which finish() replaces.
+  State& s = *state_;
+  const int columns = kFirstPlaceholder + static_cast<int>(s.images.size());
+  s.images.push_back(*std::move(picture));
+  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> placeholder(
+      cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, 1));
+  cairo_t* cairo = s.cairo.get();
   const Eigen::Vector2d corner = toPage(upperLeft);
   cairo_save(cairo);
   cairo_translate(cairo, corner.x(), corner.y());
-  cairo_scale(cairo, mmPerDot * kPointsPerMm, mmPerDot * kPointsPerMm);
-  cairo_set_source_surface(cairo, picture.get(), 0, 0);
+  cairo_scale(cairo, height / aspect * kPointsPerMm / columns, height * kPointsPerMm);
+  cairo_set_source_surface(cairo, placeholder.get(), 0, 0);
   cairo_paint(cairo);
   cairo_restore(cairo);
-  return rows * mmPerDot;
+  return height;
 }
 
 Result<std::string> PdfCanvas::finish() {
@@ -273,7 +274,11 @@ Result<std::string> PdfCanvas::finish() {
     return Error{ErrorCode::InvalidArgument,
                  fmt::format("the PDF could not be drawn: {}", cairo_status_to_string(status)),
                  {}};
-  return hasDate_ ? std::move(s.bytes) : withoutCreationDate(std::move(s.bytes));
+  std::string bytes = hasDate_ ? std::move(s.bytes) : withoutCreationDate(std::move(s.bytes));
+  for (std::size_t i = 0; i < s.images.size(); ++i)
+    bytes =
+        withImage(std::move(bytes), kFirstPlaceholder + static_cast<std::uint32_t>(i), s.images[i]);
+  return bytes;
 }
 
 }  // namespace toile

@@ -12,6 +12,11 @@
 
 namespace toile {
 
+/// A colour to fill with, each 0..1.
+struct Ink {
+  double red = 0, green = 0, blue = 0, opacity = 1;
+};
+
 /// A PDF in memory, drawn in millimetres with y up; lines and text stay vectors, fonts are
 /// embedded.
 class PdfCanvas {
@@ -39,8 +44,8 @@ class PdfCanvas {
                       bool bold = false, double most = 1e9);
 
   /// Polygons by the even-odd rule, without a rim.
-  void fill(const std::vector<Points2>& loops, double grey);
-  /// A PNG with its upper left corner there, as large as fits.
+  void fill(const std::vector<Points2>& loops, const Ink& ink);
+  /// A PNG of 8-bit red, green and blue with its upper left corner there, as large as fits.
   /// @return the height used, mm; 0 where the bytes are no picture
   double image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,
                double mostHeight);

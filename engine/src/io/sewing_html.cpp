@@ -23,7 +23,9 @@ dl{display:flex;flex-wrap:wrap;margin:1rem 0}dl div{margin:.2rem 2.4rem .2rem 0}
 dt{color:#55585e;font-size:.85rem}dd{margin:0;font-size:1.15rem}
 .pieces{display:grid;grid-template-columns:repeat(auto-fill,minmax(10rem,1fr));gap:1rem}
 figure{margin:0;padding:.7rem;background:#fff;border:1px solid #dad7d1;border-radius:9px;break-inside:avoid}
-figure svg{width:100%;height:11rem}figcaption{font-size:.87rem;line-height:1.45}figcaption b{display:block}
+figure svg{width:100%;height:11rem}svg path{fill-rule:evenodd}.body{fill:#e8e6e2}
+.own{fill:#eda73f;stroke:#3a2c12;stroke-width:3}.shade{fill-opacity:.12}.seams{fill:none;stroke:#55585e;stroke-width:1.2}
+figcaption{font-size:.87rem;line-height:1.45}figcaption b{display:block}
 table{border-collapse:collapse;width:100%;font-size:.92rem;font-variant-numeric:tabular-nums}
 th{text-align:left;font-weight:600;color:#55585e;border-bottom:1.5px solid #8b877f;padding:.3rem .6rem .3rem 0}
 td{border-bottom:1px solid #dad7d1;padding:.28rem .6rem .28rem 0}
@@ -84,53 +86,51 @@ class Writer {
     text_ += "</tbody></table>\n";
   }
 
-  /// Lines or polygons as one path, y down, in whole millimetres from the upper left of the box.
-  [[nodiscard]] std::string way(const BodyView& view, const std::vector<Points2>& lines,
-                                bool closed) const {
+  /// Areas as one path, y down.
+  static std::string way(const BodyView& view, const std::vector<Points2>& loops) {
     std::string path;
-    for (const Points2& line : lines) {
-      for (std::size_t i = 0; i < line.size(); ++i)
+    for (const Points2& loop : loops) {
+      for (std::size_t i = 0; i < loop.size(); ++i)
         path += fmt::format("{}{} {}",
                             i == 0   ? "M"
                             : i == 1 ? "L"
                                      : " ",
-                            std::lround(line[i].x() - view.box.min.x()),
-                            std::lround(view.box.max.y() - line[i].y()));
-      if (closed) path += "Z";
+                            std::lround(loop[i].x()), std::lround(view.size.y() - loop[i].y()));
+      path += "Z";
     }
     return path;
   }
 
+  /// What all figures of a view share: the model below the piece, shade and lines above it.
+  void addView(std::size_t number) {
+    const BodyView& view = sheet_.body.views[number];
+    fmt::format_to(out_, "<path id=\"body{}\" class=\"body\" d=\"{}\"/>\n<g id=\"over{}\">", number,
+                   way(view, view.body), number);
+    for (const std::vector<Points2>* shade : {&view.shade, &view.deepShade})
+      fmt::format_to(out_, "<path class=\"shade\" d=\"{}\"/>", way(view, *shade));
+    text_ += "<path class=\"seams\" d=\"";
+    for (const std::vector<Points2>& loops : view.pieces) text_ += way(view, loops);
+    text_ += "\"/></g>\n";
+  }
+
   void addPieces() {
     text_ += "<h2>Pieces and where they sit</h2>\n<svg width=\"0\" height=\"0\"><defs>\n";
-    for (const bool behind : {false, true}) {
-      const BodyView& view = behind ? sheet_.back : sheet_.front;
-      fmt::format_to(out_, "<path id=\"{}\" d=\"", behind ? "back" : "front");
-      for (const std::vector<Points2>& lines : view.lines) text_ += way(view, lines, false);
-      text_ += "\"/>\n";
-    }
+    for (std::size_t v = 0; v < sheet_.body.views.size(); ++v) addView(v);
     text_ += "</defs></svg>\n<div class=\"pieces\">\n";
     for (std::size_t i = 0; i < pattern_.pieces.size(); ++i) {
       const PatternPiece& piece = pattern_.pieces[i];
-      const bool behind = i < sheet_.isBehind.size() && sheet_.isBehind[i] != 0;
-      const BodyView& view = behind ? sheet_.back : sheet_.front;
-      const double stroke = view.box.size().maxCoeff() / 250;
-      text_ += "<figure>";
-      if (i < view.outlines.size())
-        fmt::format_to(out_,
-                       "<svg viewBox=\"{0:.0f} {0:.0f} {1:.0f} {2:.0f}\"><path fill=\"#e3a23c\" "
-                       "stroke=\"#8a5a00\" stroke-width=\"{3:.1f}\" fill-rule=\"evenodd\" "
-                       "d=\"{4}\"/><use href=\"#{5}\" fill=\"none\" stroke=\"#55585e\" "
-                       "stroke-width=\"{3:.1f}\"/></svg>",
-                       -2 * stroke, view.box.size().x() + 4 * stroke,
-                       view.box.size().y() + 4 * stroke, stroke, way(view, view.outlines[i], true),
-                       behind ? "back" : "front");
+      const std::size_t v = sheet_.body.viewOf[i];
+      const BodyView& view = sheet_.body.views[v];
+      fmt::format_to(out_,
+                     "<figure><svg viewBox=\"0 0 {} {}\"><use href=\"#body{}\"/>"
+                     "<path class=\"own\" d=\"{}\"/><use href=\"#over{}\"/></svg>",
+                     view.size.x(), view.size.y(), v, way(view, view.pieces[i]), v);
       fmt::format_to(out_,
                      "<figcaption><b>{}  {}</b>cut {}{}<br>{:.0f} cm\u00b2, outline {:.0f} "
                      "mm<br><span class=\"second\">seen from {}</span></figcaption></figure>\n",
                      piece.number, escaped(piece.name), piece.count,
                      piece.fabric.empty() ? "" : ", " + escaped(piece.fabric), sheet_.area[i] / 100,
-                     sheet_.length[i], behind ? "behind" : "the front");
+                     sheet_.length[i], view.from);
     }
     text_ += "</div>\n";
   }

@@ -22,6 +22,7 @@ constexpr double kInnerMm = kWidthMm - 2 * kMarginMm;
 constexpr double kTextMm = 3.4;
 constexpr double kFeedMm = 5;
 constexpr double kGrey = 0.55;
+constexpr Ink kShadow{0, 0, 0, 0.13};
 
 /// A column of a table: where it begins and how wide its text may be, mm.
 struct Column {
@@ -114,20 +115,22 @@ class Writer {
 
   /// The model in small with one piece filled.
   void drawFigure(std::size_t piece, const Vector2d& corner, double width, double height) {
-    const bool behind = sheet_.isBehind[piece] != 0;
-    const BodyView& view = behind ? sheet_.back : sheet_.front;
-    const double scale = std::min(width / view.box.size().x(), height / view.box.size().y());
-    const Vector2d at = corner + 0.5 * (Vector2d(width, height) - scale * view.box.size());
-    const auto small = [&](Points2 points) {
-      for (Vector2d& p : points) p = at + scale * (p - view.box.min);
-      return points;
+    const BodyView& view = sheet_.body.views[sheet_.body.viewOf[piece]];
+    const double scale = std::min(width / view.size.x(), height / view.size.y());
+    const Vector2d at = corner + 0.5 * (Vector2d(width, height) - scale * view.size);
+    const auto small = [&](std::vector<Points2> loops) {
+      for (Points2& loop : loops)
+        for (Vector2d& p : loop) p = at + scale * p;
+      return loops;
     };
-    std::vector<Points2> loops;
-    for (const Points2& loop : view.outlines[piece]) loops.push_back(small(loop));
-    canvas_.fill(loops, 0.7);
-    for (const std::vector<Points2>& lines : view.lines)
-      for (const Points2& line : lines) canvas_.line(small(line), false, {0.1, {}}, 0.35);
-    for (const Points2& loop : loops) canvas_.line(loop, true, {0.3, {}});
+    const std::vector<Points2> own = small(view.pieces[piece]);
+    canvas_.fill(small(view.body), {0.91, 0.91, 0.9});
+    canvas_.fill(own, {0.93, 0.66, 0.25});
+    canvas_.fill(small(view.shade), kShadow);
+    canvas_.fill(small(view.deepShade), kShadow);
+    for (const std::vector<Points2>& loops : view.pieces)
+      for (const Points2& loop : small(loops)) canvas_.line(loop, true, {0.08, {}}, 0.45);
+    for (const Points2& loop : own) canvas_.line(loop, true, {0.25, {}}, 0.15);
   }
 
   void addPieces() {
@@ -145,18 +148,17 @@ class Writer {
       const PatternPiece& piece = pattern_.pieces[i];
       const double x = column * kCellWidth;
       constexpr double kWide = kCellWidth - 4;
-      if (i < sheet_.isBehind.size()) drawFigure(i, {x, y_ + 20}, kWide, kFigureMm);
+      drawFigure(i, {x, y_ + 20}, kWide, kFigureMm);
       canvas_.textFromLeft({x, y_ + 14}, 3.4, fmt::format("{}  {}", piece.number, piece.name), true,
                            kWide);
       canvas_.textFromLeft(
           {x, y_ + 9.5}, 3,
           fmt::format("cut {}{}", piece.count, piece.fabric.empty() ? "" : ", " + piece.fabric),
           false, kWide);
-      const bool behind = i < sheet_.isBehind.size() && sheet_.isBehind[i] != 0;
       canvas_.textFromLeft(
           {x, y_ + 5}, 3,
           fmt::format("{:.0f} cm\u00b2, {:.0f} mm round, from {}", sheet_.area[i] / 100,
-                      sheet_.length[i], behind ? "behind" : "the front"),
+                      sheet_.length[i], sheet_.body.views[sheet_.body.viewOf[i]].from),
           false, kWide);
     }
   }

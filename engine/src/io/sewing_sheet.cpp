@@ -9,89 +9,6 @@
 #include "toile/core/content_hash.h"
 
 namespace toile {
-namespace {
-
-constexpr double kThumbnailSteps = 300;  // points nearer than this part of the model's height go
-
-/// A line seen from in front (-y) or from behind; only its parts on faces that look at the eye
-/// where `all` is false.
-class Viewer {
- public:
-  Viewer(const Pattern& pattern, bool fromBehind) : pattern_(pattern), sign_(fromBehind ? -1 : 1) {}
-
-  BodyView view() {
-    BodyView view;
-    Points2 all;
-    for (const std::uint32_t index : pattern_.pieceIndex)
-      for (const Eigen::Vector3d& p : pattern_.cut.pieces[index].mesh->positions())
-        all.push_back(project(p));
-    view.box = boxOf(all);
-    step_ = view.box.size().maxCoeff() / kThumbnailSteps;
-    for (const std::uint32_t index : pattern_.pieceIndex) {
-      const Piece& piece = pattern_.cut.pieces[index];
-      view.lines.push_back(seenLines(piece));
-      view.outlines.push_back(loops(piece));
-    }
-    return view;
-  }
-
- private:
-  [[nodiscard]] Eigen::Vector2d project(const Eigen::Vector3d& p) const {
-    return {sign_ * p.x(), p.z()};
-  }
-
-  void add(Points2& line, const Eigen::Vector2d& p) const {
-    if (line.empty() || (line.back() - p).norm() >= step_) line.push_back(p);
-  }
-
-  [[nodiscard]] std::vector<Points2> seenLines(const Piece& piece) const {
-    std::vector<Points2> lines;
-    for (const Wire& wire : piece.wires) {
-      if (!isBoundary(wire.kind)) continue;
-      bool isOpen = false;
-      for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i) {
-        const EdgeId edge = piece.mesh->findEdge(wire.vertices[i], wire.vertices[i + 1]);
-        const bool isSeen =
-            edge.isValid() &&
-            sign_ * piece.mesh->normal(piece.mesh->face(piece.mesh->halfedge(edge))).y() < 0;
-        if (isSeen && !isOpen) lines.emplace_back();
-        isOpen = isSeen;
-        if (!isSeen) continue;
-        add(lines.back(), project(piece.mesh->position(wire.vertices[i])));
-        if (i + 2 == wire.vertices.size())
-          lines.back().push_back(project(piece.mesh->position(wire.vertices[i + 1])));
-      }
-    }
-    std::erase_if(lines, [](const Points2& line) { return line.size() < 2; });
-    return lines;
-  }
-
-  [[nodiscard]] std::vector<Points2> loops(const Piece& piece) const {
-    std::vector<Points2> loops;
-    VertexId next;
-    for (const Wire& wire : piece.wires) {
-      if (!isBoundary(wire.kind)) continue;
-      if (loops.empty() || wire.vertices.front() != next) loops.emplace_back();
-      for (std::size_t i = 0; i + 1 < wire.vertices.size(); ++i)
-        add(loops.back(), project(piece.mesh->position(wire.vertices[i])));
-      next = wire.vertices.back();
-    }
-    return loops;
-  }
-
-  const Pattern& pattern_;
-  double sign_;
-  double step_ = 1;
-};
-
-bool facesBack(const Piece& piece) {
-  double sum = 0;
-  for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f)
-    sum += piece.mesh->area(FaceId(f)) * piece.mesh->normal(FaceId(f)).y();
-  return sum > 0;
-}
-
-}  // namespace
 
 SewingSheet sewingSheet(const Pattern& pattern) {
   SewingSheet sheet;
@@ -117,10 +34,7 @@ SewingSheet sewingSheet(const Pattern& pattern) {
     found->pieces += piece.count;
     found->area += piece.count * area;
   }
-  for (const std::uint32_t index : pattern.pieceIndex)
-    sheet.isBehind.push_back(facesBack(pattern.cut.pieces[index]) ? 1 : 0);
-  sheet.front = Viewer(pattern, false).view();
-  sheet.back = Viewer(pattern, true).view();
+  sheet.body = bodyViews(pattern);
   sheet.contract = lengthContract(pattern);
   sheet.inputs = inputsHash(pattern.document).hex();
   return sheet;

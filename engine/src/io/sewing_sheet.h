@@ -5,17 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "finish/polygon.h"
+#include "io/body_view.h"
 #include "toile/sew/sewing.h"
 
 namespace toile {
-
-/// The pieces as they sit on the model, seen from in front or from behind; mm, y up.
-struct BodyView {
-  std::vector<std::vector<Points2>> lines;     ///< per pattern piece: what is seen of its outline
-  std::vector<std::vector<Points2>> outlines;  ///< per pattern piece: its loops, to fill
-  Box2 box;
-};
 
 struct FabricUse {
   std::string name;  ///< "" where the design names none
@@ -30,8 +23,7 @@ struct SewingSheet {
   std::vector<FabricUse> fabrics;
   std::vector<double> area;    ///< mm^2, per pattern piece, inside its cut line
   std::vector<double> length;  ///< mm, of its cut line
-  std::vector<char> isBehind;  ///< per pattern piece: seen better from behind
-  BodyView front, back;
+  BodyViews body;
   std::vector<LengthLine> contract;
   std::string inputs;  ///< hash
 };

@@ -41,7 +41,7 @@ std::vector<Product> productsOf(const Pattern& pattern, const Pattern& cutting,
                                 const WriteOptions& options, Progress* progress) {
   std::vector<Product> products = {
       {"preview.png", "picture: the model with its lines, the pieces beside it",
-       [&, progress] { return renderPattern(pattern, {}, progress); }},
+       [&, progress] { return renderPattern(pattern, {.trim = true}, progress); }},
       {"pattern.pdf", "the pieces at 1:1, to print", [&] { return writePdf(sheet, options.pdf); }},
       {"report.html", "every piece, every seam length, findings, for the browser",
        [&] { return Result<std::string>(writeReportHtml(pattern)); }},

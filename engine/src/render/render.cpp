@@ -141,6 +141,18 @@ Arrangement divide(const RenderOptions& options, const Wish& wish) {
   return result;
 }
 
+/// The height that a picture needs to show as much at its width.
+int neededHeight(const Arrangement& parts, const Wish& wish) {
+  double needed = wish.sheet ? sheetHeight(parts.sheet.width, *wish.sheet, wish.scale) : 0;
+  if (!parts.views.empty()) {
+    // Rows are alike; those that are not full begin farther to the right.
+    const auto rows = std::ranges::count(parts.views, 0, &PixelBox::x);
+    const double row = wish.topRoom + wish.model.y() / parts.mmPerPixel + wish.captionRoom;
+    needed = std::max(needed, wish.titleRoom + static_cast<double>(rows) * row);
+  }
+  return std::max(kLeastSize, static_cast<int>(std::ceil(needed)));
+}
+
 /// How large a px of the line styles is on the model, mm: as drawn for a large view, in large
 /// pictures of large things not larger than real stitches, and never too fine to be seen.
 double lineUnit(const RenderOptions& options, const Wish& wish, double mmPerPixel) {
@@ -154,8 +166,7 @@ double lineUnit(const RenderOptions& options, const Wish& wish, double mmPerPixe
 
 /// @param pattern null for a model alone
 Result<std::string> render(const std::string& title, const Pattern* pattern,
-                           const ReferenceModel& model, const RenderOptions& options,
-                           Progress* progress) {
+                           const ReferenceModel& model, RenderOptions options, Progress* progress) {
   if (const Result<void> fine = checkOptions(options); !fine) return fine.error();
   Wish wish;
   wish.scale = std::max(std::sqrt(1.0 * options.width * options.height / kStylePixels),
@@ -179,7 +190,11 @@ Result<std::string> render(const std::string& title, const Pattern* pattern,
       wish.model = wish.model.cwiseMax(renderer->size(view));
     }
   }
-  const Arrangement parts = divide(options, wish);
+  Arrangement parts = divide(options, wish);
+  if (options.trim && neededHeight(parts, wish) < options.height) {
+    options.height = neededHeight(parts, wish);
+    parts = divide(options, wish);
+  }
   Picture picture(options.width, options.height);
   if (wish.sheet) paintSheet(picture, parts.sheet, *pattern, options, wish.scale);
   if (renderer) {

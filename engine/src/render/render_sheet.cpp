@@ -373,6 +373,11 @@ void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& fra
 
 }  // namespace
 
+double sheetHeight(int width, const Vector2d& size, double scale) {
+  const double pixelsPerMm = std::max(1.0, width - 2 * kMargin * scale) / size.x();
+  return pixelsPerMm * size.y() + (2 * kMargin + kScaleBarRoom) * scale;
+}
+
 void paintSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
                 const RenderOptions& options, double scale) {
   const Cairo cairo = drawOn(picture);

@@ -13,6 +13,9 @@ namespace toile {
 void paintSheet(Picture& picture, const PixelBox& box, const Pattern& pattern,
                 const RenderOptions& options, double scale);
 
+/// The height, px, of a box of that width in which pieces of that size (mm) are no larger.
+[[nodiscard]] double sheetHeight(int width, const Eigen::Vector2d& size, double scale);
+
 struct Caption {
   std::string text;
   double x = 0, y = 0;  ///< px, left end of the base line; the middle of it when centred

@@ -9,8 +9,10 @@
 #include <sstream>
 
 #include "finish/polygon.h"
+#include "io/pdf_canvas.h"
 #include "io/pdf_tiles.h"
 #include "io/pdf_update.h"
+#include "render/picture.h"
 #include "support/hand_made_pattern.h"
 #include "support/result_printing.h"
 #include "support/run_program.h"
@@ -183,6 +185,38 @@ TEST(Pdf, UpdateLeavesOtherFilesAlone) {
   EXPECT_EQ(withoutPrintScaling(""), "");
   const std::string once = SavedPdf(test::makeTwoPiecePattern()).bytes;
   EXPECT_EQ(withoutPrintScaling(once), once);
+}
+
+TEST(Pdf, ShowsAPictureAsItsPngHasIt) {
+  // 20 x 10 dots, black where column and row are both in the upper left quarter.
+  Picture picture(20, 10);
+  for (int y = 0; y < picture.height; ++y)
+    for (int x = 0; x < picture.width; ++x) picture.at(x, y) = x < 10 && y < 5 ? 0U : 0xFFFFFFU;
+  const Result<std::string> png = encodePng(picture);
+  ASSERT_TRUE(png);
+  PdfCanvas canvas;
+  canvas.beginPage(210, 297);
+  EXPECT_NEAR(canvas.image(*png, {10, 200}, 100, 90), 50, 1e-9);
+  // A second one, of other dots, stands for itself.
+  picture.at(19, 9) = 0;
+  const Result<std::string> second = encodePng(picture);
+  EXPECT_NEAR(canvas.image(*second, {10, 100}, 100, 40), 40, 1e-9);
+  EXPECT_EQ(canvas.image("no picture", {10, 40}, 100, 40), 0);
+  EXPECT_EQ(canvas.image(png->substr(0, 50), {10, 40}, 100, 40), 0);
+  SavedPdf pdf(test::makeTwoPiecePattern());
+  const Result<std::string> bytes = canvas.finish();
+  ASSERT_TRUE(bytes) << bytes.error();
+  test::writeText(pdf.path, *bytes);
+  const Raster page(pdf, 1);
+  EXPECT_LT(page.darkest(35, 190), 60);   // in the black quarter
+  EXPECT_LT(page.darkest(55, 179), 60);   // and near its corner
+  EXPECT_GT(page.darkest(85, 190), 200);  // right of it
+  EXPECT_GT(page.darkest(35, 160), 200);  // below it
+  EXPECT_LT(page.darkest(20, 90), 60);    // the second one
+  EXPECT_LT(page.darkest(88, 62), 60);    // and its last dot
+  EXPECT_GT(page.darkest(35, 70), 200);
+  EXPECT_NE(pdf.run({"pdfimages", "-list", pdf.path.string()}).find("20    10  rgb"),
+            std::string::npos);
 }
 
 TEST(Pdf, WholeSheetIsOnePage) {

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <sstream>
 
+#include "io/body_view.h"
 #include "support/run_program.h"
 #include "support/sample_designs.h"
 #include "toile/core/file.h"
@@ -241,6 +243,46 @@ TEST_F(WetsuitFiles, HaveTheLengthsThatPopplerReads) {
     }
   }
   EXPECT_EQ(found.size(), loops);
+}
+
+TEST_F(WetsuitFiles, SewingSheetShowsEveryPieceOnTheBody) {
+  const BodyViews body = bodyViews(*pattern_);
+  ASSERT_EQ(body.viewOf.size(), pattern_->pieces.size());
+  const std::map<std::string, std::string> from = {{"Side panel left", "the left"},
+                                                   {"Side panel right", "the right"},
+                                                   {"Front", "the front"},
+                                                   {"Calf left", "behind"}};
+  const auto areaOf = [](const std::vector<Points2>& loops) {
+    double area = 0;
+    for (const Points2& loop : loops) area += signedArea(loop);  // holes run the other way
+    return area;
+  };
+  for (const BodyView& view : body.views) {
+    // What is seen of the pieces lies on the silhouette, each place of it once.
+    double pieces = 0;
+    for (const std::vector<Points2>& loops : view.pieces) {
+      pieces += areaOf(loops);
+      for (const Points2& loop : loops) {
+        EXPECT_GE(boxOf(loop).min.minCoeff(), 0);
+        EXPECT_LE((boxOf(loop).max - view.size).maxCoeff(), 0);
+      }
+    }
+    EXPECT_LE(pieces, 1.01 * areaOf(view.body)) << view.from;
+    EXPECT_GE(pieces, 0.6 * areaOf(view.body)) << view.from;
+  }
+  for (std::size_t i = 0; i < pattern_->pieces.size(); ++i) {
+    const BodyView& view = body.views[body.viewOf[i]];
+    const Piece& piece = pattern_->cut.pieces[pattern_->pieceIndex[i]];
+    double whole = 0;
+    for (std::size_t f = 0; f < piece.mesh->faceCount(); ++f) whole += piece.mesh->area(FaceId(f));
+    const double seen = areaOf(view.pieces[i]) * view.mmPerUnit * view.mmPerUnit;
+    EXPECT_GE(seen, 0.25 * whole) << pattern_->pieces[i].name << " from " << view.from;
+    EXPECT_LE(seen, 1.02 * whole) << pattern_->pieces[i].name << " from " << view.from;
+    const auto expected = from.find(pattern_->pieces[i].name);
+    if (expected != from.end()) {
+      EXPECT_EQ(view.from, expected->second);
+    }
+  }
 }
 
 TEST_F(WetsuitFiles, SewingSheetNamesEveryStepAndPiece) {

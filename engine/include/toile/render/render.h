@@ -53,6 +53,7 @@ enum class StrainMap {
 struct RenderOptions {
   int width = 1600;   ///< px, 16..16000
   int height = 1000;  ///< px, 16..16000
+  bool trim = false;  ///< only as high as what it shows at that width
   int samples = 3;    ///< 1..8, per pixel and axis where outlines and lines pass
   /// 0..12 views side by side; empty shows the pieces alone.
   std::vector<RenderView> views = {{"front", Angle::degrees(0), Angle::degrees(4)},
