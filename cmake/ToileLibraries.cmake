@@ -15,6 +15,7 @@ set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 set(CGAL_DATA_DIR "unused")
 find_package(CGAL 5.5 REQUIRED QUIET)
 
+find_package(nanoflann 1.4 REQUIRED)
 find_package(TBB REQUIRED)
 find_package(embree 3 REQUIRED)
 find_package(SuiteSparse REQUIRED)
@@ -29,6 +30,6 @@ pkg_check_modules(dxflib REQUIRED IMPORTED_TARGET dxflib)
 pkg_check_modules(xxhash REQUIRED IMPORTED_TARGET libxxhash)
 
 set(TOILE_PRIVATE_LIBRARIES
-    CGAL::CGAL TBB::tbb embree SuiteSparse::cholmod SuiteSparse::umfpack
+    CGAL::CGAL nanoflann::nanoflann TBB::tbb embree SuiteSparse::cholmod SuiteSparse::umfpack
     PkgConfig::openblas PNG::PNG PkgConfig::cairo PkgConfig::pangocairo PkgConfig::clipper
     PkgConfig::dxflib PkgConfig::xxhash Threads::Threads)
