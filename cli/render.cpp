@@ -10,6 +10,7 @@
 
 #include "commands.h"
 #include "common_options.h"
+#include "places.h"
 #include "terminal_progress.h"
 #include "toile/core/file.h"
 #include "toile/pipeline.h"
@@ -39,39 +40,15 @@ void readViews(const std::vector<std::string>& lists, std::vector<RenderView>& v
   }
 }
 
-std::optional<Eigen::Vector3d> parsePlace(std::string_view text) {
-  Eigen::Vector3d place;
-  for (Eigen::Index k = 0; k < 3; ++k) {
-    const std::size_t comma = k < 2 ? text.find(',') : text.size();
-    const std::optional<double> number = parseDouble(text.substr(0, comma));
-    if (comma == std::string_view::npos || !number) return std::nullopt;
-    place[k] = *number;
-    if (k < 2) text.remove_prefix(comma + 1);
-  }
-  return place;
-}
-
 /// The options with the close-up that --at and --height ask for.
 Result<RenderOptions> optionsOn(const Arguments& arguments, const ReferenceModel& model) {
   RenderOptions options = arguments.options;
   if (!arguments.at) return options;
   RenderCloseUp closeUp;
   if (arguments.height) closeUp.height = *arguments.height;
-  const auto landmark = model.landmarks.find(*arguments.at);
-  const auto place = parsePlace(*arguments.at);
-  if (landmark != model.landmarks.end()) {
-    closeUp.middle = position(*model.mesh, landmark->second);
-  } else if (place) {
-    closeUp.middle = *place;
-  } else {
-    std::string names;
-    for (const auto& [name, point] : model.landmarks) names += (names.empty() ? "" : ", ") + name;
-    return Error{ErrorCode::NameNotFound,
-                 fmt::format("--at: \"{}\" is neither a place x,y,z in mm nor a landmark of the "
-                             "model; {}",
-                             *arguments.at, names.empty() ? "it has none" : "there are " + names),
-                 {}};
-  }
+  const Result<Eigen::Vector3d> middle = findPlace(model, *arguments.at);
+  if (!middle) return middle.error().during("--at");
+  closeUp.middle = *middle;
   options.closeUp = closeUp;
   return options;
 }

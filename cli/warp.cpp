@@ -229,9 +229,11 @@ void addWarp(CLI::App& app, Session& session) {
       ->required();
   command->add_option("--report", arguments->reportFile, "JSON file for the report")
       ->type_name("FILE");
-  addParsedList(*command, "--girth", arguments->girths, parseGirthWord,
-                "A line round the first body at which the distance is kept: NAME of a curve of it, "
-                "or NAME:z=900mm; with :ease=20mm it is set; may be given often")
+  addParsedList(
+      *command, "--girth", arguments->girths, parseGirthWord,
+      "A line round the first body at which the distance is kept: NAME of a curve of it, "
+      "or NAME:z=900mm, or NAME:through=PLACE/PLACE/PLACE (landmarks or x,y,z in mm); with "
+      ":ease=20mm it is set; may be given often")
       ->type_name("GIRTH");
   addParsedList(*command, "--rigid", arguments->rigid, parseRigidWord,
                 "A part that keeps its shape: a piece of the product's design, or a part of space "

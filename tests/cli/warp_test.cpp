@@ -63,6 +63,21 @@ TEST_F(WarpCommand, WritesTheProductAroundTheOtherBody) {
   EXPECT_TRUE(fs::exists(file("out/block.ply")));
 }
 
+// The same plane said in two ways gives the same girth; one that leans is kept like any other.
+TEST_F(WarpCommand, TakesAGirthThroughThreePlaces) {
+  const ProgramResult result =
+      toile({"warp", file("block.ply"), "--from", kWoman, "--to", kOther, "--girth",
+             "level:z=980mm", "--girth", "same:through=0,-100,980/100,0,980/0,100,980", "--girth",
+             "slant:through=0,-100,960/150,0,980/0,100,1000", "-o", file("slant.ply"), "--report",
+             file("slant.json")});
+  ASSERT_EQ(result.status, 0) << result.err << result.out;
+  const auto girths = nlohmann::json::parse(readText(file("slant.json")))["girths"];
+  ASSERT_EQ(girths.size(), 3U);
+  EXPECT_EQ(girths[0]["easeMm"], girths[1]["easeMm"]);
+  EXPECT_NE(girths[0]["easeMm"], girths[2]["easeMm"]);
+  for (const auto& girth : girths) EXPECT_LT(girth["largestErrorMm"].get<double>(), 1);
+}
+
 TEST_F(WarpCommand, KeepsAPartOfSpaceRigid) {
   const ProgramResult result =
       toile({"warp", file("block.ply"), "--from", kWoman, "--to", "builtin:body@1?size=EU40F",
@@ -102,6 +117,10 @@ TEST_F(WarpCommand, RefusesWhatItDoesNotUnderstand) {
   };
   for (const Case& each : {
            Case{{"--girth", "wiast_girth"}, 1, "did you mean \"waist_girth\""},
+           Case{{"--girth", "middle"}, 1, "its girths: ankle_girth_l"},
+           Case{{"--girth", "slant:through=navel/crotch"}, 2, "is not understood"},
+           Case{{"--girth", "slant:through=navel/navel/crotch"}, 1, "lie in one line"},
+           Case{{"--girth", "slant:through=navle/crotch/0,0,0"}, 1, "\"navle\" is neither a place"},
            Case{{"--girth", "waist:q=9mm"}, 2, "\"q=9mm\" is not understood"},
            Case{{"--girth", "above:z=9m"}, 1, "does not go round"},
            Case{{"--rigid", "z<9"}, 2, "--rigid"},

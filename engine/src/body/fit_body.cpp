@@ -3,7 +3,12 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <optional>
+
+#include "fit/fitter.h"
+#include "toile/core/parallel.h"
 
 namespace toile {
 namespace {
@@ -12,12 +17,28 @@ constexpr std::array kPostures = {Posture::APose, Posture::ArmsRaised, Posture::
                                   Posture::Seated};
 /// How much larger a measure is on a member of the family, of the measure.
 constexpr double kVaried = 0.06;
+/// Of the limits of what may be stray and missing, added: a posture below it needs no other to be
+/// tried, and one above it is none.
+constexpr double kPlainlyIn = 1.5;
+constexpr double kPossible = 4;
 
+using fitting::Draft;
+using fitting::Fitter;
+using fitting::Misfit;
+using fitting::prepareTarget;
+using fitting::Similarity;
+using fitting::Target;
 using Family = std::vector<std::shared_ptr<const Mesh>>;
 
-void add(Family& family, const BodyOptions& options) {
-  const Result<ReferenceModel> body = makeBody(options);
-  if (body) family.push_back(body->mesh);
+/// The bodies that are possible, in the order of the options.
+Family makeFamily(const std::vector<BodyOptions>& members) {
+  Family made(members.size());
+  parallelFor(members.size(), [&](std::size_t i) {
+    const Result<ReferenceModel> body = makeBody(members[i]);
+    if (body) made[i] = body->mesh;
+  });
+  std::erase(made, nullptr);
+  return made;
 }
 
 /// What people differ in most: form, growth, stoutness, proportions.
@@ -32,7 +53,7 @@ Family coarseFamily(Posture posture) {
                                            {0.5, 1250, 640, 570, 680},
                                            {0, 1780, 840, 640, 900},
                                            {1, 1900, 940, 780, 940}}};
-  Family family;
+  std::vector<BodyOptions> family;
   for (const Kind& kind : kKinds) {
     BodyOptions options;
     options.posture = posture;
@@ -41,7 +62,7 @@ Family coarseFamily(Posture posture) {
     options.measures[BodyMeasure::Chest] = Length::mm(kind.chest);
     options.measures[BodyMeasure::Waist] = Length::mm(kind.waist);
     options.measures[BodyMeasure::Hip] = Length::mm(kind.hip);
-    add(family, options);
+    family.push_back(options);
   }
   // Proportions, on a body between the forms.
   for (const BodyMeasure measure :
@@ -55,49 +76,48 @@ Family coarseFamily(Posture posture) {
     if (!ranges) continue;
     const BodyRange& range = (*ranges)[static_cast<std::size_t>(measure)];
     options.measures[measure] = Length::mm(0.4 * range.expected.mm() + 0.6 * range.most.mm());
-    add(family, options);
+    family.push_back(options);
   }
   // Arms nearer to the trunk or farther from it.
   BodyOptions raised;
   raised.posture = posture == Posture::APose ? Posture::ArmsRaised : Posture::APose;
   raised.masculine = 0.5;
-  add(family, raised);
-  return family;
+  family.push_back(raised);
+  return makeFamily(family);
 }
 
-/// Every measure of a body a little larger, the others as they are.
+/// Every measure of a body a little larger, the others as they are; smaller where it cannot be.
 Family fineFamily(const BodyOptions& body) {
-  Family family;
-  for (const BodyMeasureInfo& info : bodyMeasures()) {
-    const auto given = body.measures.find(info.measure);
-    if (given == body.measures.end() || info.measure == BodyMeasure::Height) continue;
+  std::vector<BodyOptions> family;
+  const Result<std::vector<BodyRange>> ranges = bodyRanges(body);
+  for (const auto& [measure, given] : body.measures) {
+    if (!ranges || measure == BodyMeasure::Height) continue;
+    const bool hasRoom =
+        given.mm() * (1 + kVaried) <= (*ranges)[static_cast<std::size_t>(measure)].most.mm();
     BodyOptions varied = body;
-    const std::size_t before = family.size();
-    for (const double factor : {1 + kVaried, 1 - kVaried}) {
-      if (family.size() > before) break;  // at the end of its range a measure has one way to go
-      varied.measures[info.measure] = Length::mm(given->second.mm() * factor);
-      add(family, varied);
-    }
+    varied.measures[measure] = Length::mm(given.mm() * (hasRoom ? 1 + kVaried : 1 - kVaried));
+    family.push_back(varied);
   }
   BodyOptions form = body;
   form.masculine = body.masculine < 0.5 ? 1 : 0;
   form.measures = {{BodyMeasure::Height, body.measures.at(BodyMeasure::Height)}};
-  add(family, form);
+  family.push_back(form);
   BodyOptions raised = body;
   raised.posture = Posture::ArmsRaised;
-  add(family, raised);
-  return family;
+  family.push_back(raised);
+  return makeFamily(family);
 }
 
-/// The fit as the template stands, in its own size.
-Mesh upright(const Fit& fit) {
-  Eigen::Affine3d back = fit.placement.inverse();
-  back.linear() *= std::cbrt(fit.placement.linear().determinant());
-  std::vector<Eigen::Vector3d> positions;
-  for (const Eigen::Vector3d& p : fit.model.mesh->positions()) {
-    positions.push_back(back.linear() * (p - fit.placement.translation()));
+/// Positions on the scan as the template stands, in the scan's size.
+Mesh upright(const Mesh& connectivity, const std::vector<Eigen::Vector3d>& positions,
+             const Eigen::Affine3d& placement) {
+  const double scale = std::cbrt(placement.linear().determinant());
+  const Eigen::Matrix3d back = placement.linear().transpose() / scale;
+  std::vector<Eigen::Vector3d> standing;
+  for (const Eigen::Vector3d& p : positions) {
+    standing.emplace_back(back * (p - placement.translation()));
   }
-  return fit.model.mesh->withPositions(std::move(positions));
+  return connectivity.withPositions(std::move(standing));
 }
 
 double meanSquare(const Mesh& a, const Mesh& b) {
@@ -113,10 +133,9 @@ double meanSquare(const Mesh& a, const Mesh& b) {
   return sum / count;
 }
 
-/// The parametric body with the measures of the fit, as far as such a body is possible: the great
-/// ones first, each brought into the range that those before leave.
-std::optional<BodyOptions> bodyLike(const Mesh& standing) {
-  const std::vector<Length> measured = measureBody(standing);
+/// The body of a form with those measures, as far as it is possible: the great ones first, each
+/// brought into the range that those before leave.
+BodyOptions bodyWith(const std::vector<Length>& measured, double masculine) {
   std::vector<BodyMeasure> order{BodyMeasure::Height, BodyMeasure::Chest, BodyMeasure::Waist,
                                  BodyMeasure::Hip, BodyMeasure::InsideLeg};
   for (const BodyMeasureInfo& info : bodyMeasures()) {
@@ -124,9 +143,8 @@ std::optional<BodyOptions> bodyLike(const Mesh& standing) {
       order.push_back(info.measure);
     }
   }
-  std::optional<BodyOptions> best;
-  double least = 0;
-  for (const double masculine : {0.0, 0.5, 1.0}) {
+  // Mostly all are possible together, which one body shows; otherwise each is tried.
+  for (const bool isTried : {false, true}) {
     BodyOptions options;
     options.masculine = masculine;
     for (const BodyMeasure measure : order) {
@@ -135,17 +153,36 @@ std::optional<BodyOptions> bodyLike(const Mesh& standing) {
       if (!ranges) break;
       BodyOptions next = options;
       next.measures[measure] = std::clamp(measured[i], (*ranges)[i].least, (*ranges)[i].most);
-      if (makeBody(next)) options = std::move(next);
+      if (!isTried || makeBody(next)) options = std::move(next);
     }
-    const Result<ReferenceModel> body = makeBody(options);
-    if (!body || !options.measures.contains(BodyMeasure::Height)) continue;
-    const double distance = meanSquare(*body->mesh, standing);
-    if (!best || distance < least) {
-      least = distance;
-      best = options;
-    }
+    if (isTried || makeBody(options)) return options;
   }
-  return best;
+  return {};
+}
+
+/// The parametric body nearest to one.
+std::optional<BodyOptions> bodyLike(const Mesh& standing) {
+  const std::vector<Length> measured = measureBody(standing);
+  constexpr std::array kForms = {0.0, 0.5, 1.0};
+  std::array<BodyOptions, kForms.size()> options;
+  std::array<double, kForms.size()> distance{};
+  parallelFor(kForms.size(), [&](std::size_t i) {
+    options[i] = bodyWith(measured, kForms[i]);
+    const Result<ReferenceModel> body = makeBody(options[i]);
+    const bool isBody = body && options[i].measures.contains(BodyMeasure::Height);
+    distance[i] =
+        isBody ? meanSquare(*body->mesh, standing) : std::numeric_limits<double>::infinity();
+  });
+  const auto best = std::min_element(distance.begin(), distance.end()) - distance.begin();
+  if (!std::isfinite(distance[static_cast<std::size_t>(best)])) return std::nullopt;
+  return options[static_cast<std::size_t>(best)];
+}
+
+Eigen::Affine3d affineOf(const Similarity& similarity) {
+  Eigen::Affine3d affine;
+  affine.linear() = similarity.scale * similarity.rotation;
+  affine.translation() = similarity.shift;
+  return affine;
 }
 
 }  // namespace
@@ -155,43 +192,70 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
   common.landmarks = options.landmarks;
   common.landmarkError = options.landmarkError;
   common.limits = options.limits;
+  const Error cancelled{ErrorCode::Cancelled, "the fit was cancelled", {}};
 
-  std::optional<BodyFit> best;
+  if (progress != nullptr) progress->step("fit: scan");
+  Result<Target> target = prepareTarget(scan);
+  if (!target) return target.error();
+  struct Try {
+    BodyOptions body;
+    ReferenceModel model;
+    FitOptions options;
+    Draft draft;
+    double misfit = 0;
+  };
+  std::optional<Try> best;
   for (const Posture posture : kPostures) {
-    BodyFit tried;
-    tried.body.posture = posture;
-    tried.body.masculine = 0.5;
-    const Result<ReferenceModel> start = makeBody(tried.body);
-    if (!start) return start.error();
-    common.family = coarseFamily(posture);
-    Result<Fit> fit = fitTemplate(*start, scan, common, progress);
-    if (!fit) return fit.error();
-    tried.fit = *std::move(fit);
-    const bool isOk = tried.fit.report.isOk();
+    Try one;
+    one.body.posture = posture;
+    one.body.masculine = 0.5;
+    Result<ReferenceModel> model = makeBody(one.body);
+    if (!model) return model.error();
+    one.model = *std::move(model);
+    one.options = common;
+    one.options.family = coarseFamily(posture);
+    const Fitter fitter(one.model, scan.name, one.options, progress);
+    if (const Result<void> fine = fitter.check(*target); !fine) return fine.error();
+    std::optional<Draft> draft = fitter.draft(*target);
+    if (!draft) return cancelled;
+    one.draft = *std::move(draft);
+    const Misfit off = fitter.misfit(one.draft, *target);
+    one.misfit = off.strayShare / options.limits.strayShare.value() +
+                 off.missingShare / options.limits.missingShare.value();
+    if (!best || one.misfit < best->misfit) best = std::move(one);
     // With landmarks the template is bent to them: one posture serves all.
-    const bool isLast = isOk || !options.landmarks.empty();
-    if (!best || isOk ||
-        tried.fit.report.scanToFit.mean + 1e3 * tried.fit.report.strayShare <
-            best->fit.report.scanToFit.mean + 1e3 * best->fit.report.strayShare) {
-      best = std::move(tried);
-    }
-    if (isLast) break;
+    if (best->misfit < kPlainlyIn || !options.landmarks.empty()) break;
   }
-  if (best->body.posture != Posture::APose || !best->fit.report.isOk()) return *std::move(best);
 
-  const std::optional<BodyOptions> like = bodyLike(upright(best->fit));
-  if (like) {
-    const Result<ReferenceModel> body = makeBody(*like);
-    if (!body) return body.error();
-    common.family = fineFamily(*like);
-    Result<Fit> fit = fitTemplate(*body, scan, common, progress);
-    if (!fit) return fit.error();
-    // The second start is nearer; should the fit be worse all the same, the first stays.
-    if (fit->report.isOk()) best->fit = *std::move(fit);
-    best->body = *like;
+  BodyFit result;
+  result.body = best->body;
+  const Fitter coarse(best->model, scan.name, best->options, progress);
+  std::optional<Result<Fit>> fit;
+  const bool isAPose = best->body.posture == Posture::APose;
+  if (isAPose && best->misfit < kPossible) {
+    const std::optional<BodyOptions> like =
+        bodyLike(upright(*best->model.mesh, best->draft.coarse.positions,
+                         affineOf(best->draft.placement.similarity)));
+    if (like) {
+      const Result<ReferenceModel> body = makeBody(*like);
+      if (!body) return body.error();
+      common.family = fineFamily(*like);
+      const Fitter fitter(*body, scan.name, common, progress);
+      const std::optional<Draft> draft = fitter.draftFrom(best->draft, *target);
+      if (!draft) return cancelled;
+      fit = fitter.finish(*draft, *target);
+      result.body = *like;
+    }
   }
-  best->measures = measureBody(upright(best->fit));
-  return *std::move(best);
+  if (!fit) fit = coarse.finish(best->draft, *target);
+  if (!*fit) return fit->error();
+  result.fit = **std::move(fit);
+  if (isAPose && result.fit.report.isOk()) {
+    const Fit& done = result.fit;
+    result.measures =
+        measureBody(upright(*done.model.mesh, done.model.mesh->positions(), done.placement));
+  }
+  return result;
 }
 
 }  // namespace toile

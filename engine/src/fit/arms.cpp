@@ -7,6 +7,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "fit/wrist.h"
 #include "toile/core/parallel.h"
 
 namespace toile::fitting {
@@ -24,21 +25,33 @@ constexpr std::size_t kSamples = 600;
 constexpr int kRounds = 12;
 constexpr std::size_t kFewest = 40;
 
+/// An arm or a hand is stretched by no more than this.
+constexpr double kLeastStretch = 0.8;
+constexpr double kMostStretch = 1.25;
+constexpr double kMostHandStretch = 1.6;  // mittens have no fingers
+/// A hand whose length is less off finds the scan's in the later steps, and pulls the arm along.
+constexpr double kSameHand = 0.2;
+constexpr double kFingertip = 0.995;  // of the hand's points are nearer to the wrist
+
 struct Joint {
   std::vector<std::size_t> moved;   // segments, the one at the joint first
   std::vector<std::string> around;  // landmarks
   double most = 0;                  // degrees, of the grid
 };
 
-/// In the order in which they are turned: shoulder and elbow, left and right.
-std::vector<Joint> joints() {
-  std::vector<Joint> list;
-  for (const auto& [first, side] : {std::pair<std::size_t, std::string>{3, "_l"}, {9, "_r"}}) {
-    list.push_back({{first, first + 1, first + 2}, {"shoulder" + side, "armpit" + side}, 60});
-    list.push_back({{first + 1, first + 2}, {"elbow_outer" + side, "elbow_inner" + side}, 40});
+struct Arm {
+  std::string side;
+  std::size_t first;  // segment: upper arm, forearm, hand
+  [[nodiscard]] Joint shoulder() const {
+    return {{first, first + 1, first + 2}, {"shoulder" + side, "armpit" + side}, 60};
   }
-  return list;
-}
+  [[nodiscard]] Joint elbow() const {
+    return {{first + 1, first + 2}, {"elbow_outer" + side, "elbow_inner" + side}, 40};
+  }
+  [[nodiscard]] Joint wrist() const {
+    return {{first + 2}, {"wrist_thumb" + side, "wrist_little" + side}, 40};
+  }
+};
 
 template <class T>
 std::vector<T> thinned(const std::vector<T>& all, std::size_t count) {
@@ -124,25 +137,94 @@ class ArmFinder {
         places_(own),
         upright_(upright),
         target_(target),
-        motions_(bodySegments().size()) {}
+        arms_{std::vector<Similarity>(bodySegments().size()), {}} {}
 
-  std::optional<std::vector<Similarity>> run() {
+  std::optional<Arms> run() {
     bool any = false;
-    for (const Joint& joint : joints()) any = turn(joint) || any;
+    for (const Arm& arm : {Arm{"_l", 3}, Arm{"_r", 9}}) {
+      any = turn(arm.shoulder()) || any;
+      any = turn(arm.elbow()) || any;
+      any = reachWrist(arm) || any;
+    }
     if (!any) return std::nullopt;
-    return std::move(motions_);
+    return std::move(arms_);
   }
 
  private:
-  bool turn(const Joint& joint) {
+  /// Middle of the landmarks of a joint, which go with what hangs on it.
+  [[nodiscard]] std::optional<Eigen::Vector3d> centreOf(const Joint& joint) const {
     Eigen::Vector3d centre = Eigen::Vector3d::Zero();
     for (const std::string& name : joint.around) {
       const auto found = places_.find(name);
-      if (found == places_.end()) return false;
-      // Landmarks at a joint go with what hangs on it, when that has been turned before.
+      if (found == places_.end()) return std::nullopt;
       centre += found->second / static_cast<double>(joint.around.size());
     }
-    centre = motions_[joint.moved.front()].apply(centre);
+    return arms_.motions[joint.moved.front()].apply(centre);
+  }
+
+  /// Stretches the arm to the scan's wrist and the hand to its fingertips, where a hand of another
+  /// kind (a mitten) would not find them.
+  bool reachWrist(const Arm& arm) {
+    const auto shoulder = centreOf(arm.shoulder());
+    const auto elbow = centreOf(arm.elbow());
+    const auto wrist = centreOf(arm.wrist());
+    if (!shoulder || !elbow || !wrist || !places_.contains(tipName(arm))) return false;
+    const Forearm forearm{*elbow, *wrist};
+    const std::vector<Eigen::Vector3d> points = pointsOf(arm);
+    const std::optional<double> along = wristAlong(forearm, points);
+    if (!along) return false;
+    const double own = (*elbow - *shoulder).norm() + forearm.length();
+    const double longer = (own + *along - forearm.length()) / own;
+    const double reach = reachOf(points, forearm, *along);
+    if (std::abs(reach / (tipOf(arm) - *wrist).norm() - 1) < kSameHand) return false;
+    stretch(arm.shoulder(), *shoulder, longer, kMostStretch);
+    turn(arm.wrist());
+    const Eigen::Vector3d there = *centreOf(arm.wrist());
+    const Eigen::Vector3d hand = tipOf(arm) - there;
+    stretch(arm.wrist(), there, reach / hand.norm(), kMostHandStretch);
+    for (const std::string& name : arm.wrist().around) {
+      arms_.levels.push_back({name, forearm.axis()});
+    }
+    arms_.levels.push_back({tipName(arm), hand.normalized()});
+    return true;
+  }
+
+  static std::string tipName(const Arm& arm) { return "middle_tip" + arm.side; }
+  [[nodiscard]] Eigen::Vector3d tipOf(const Arm& arm) const {
+    return arms_.motions[arm.first + 2].apply(places_.at(tipName(arm)));
+  }
+
+  /// How far the scan's fingers reach from its wrist, mm.
+  static double reachOf(const std::vector<Eigen::Vector3d>& points, const Forearm& forearm,
+                        double wristAlong) {
+    const Eigen::Vector3d wrist = forearm.elbow + wristAlong * forearm.axis();
+    std::vector<double> reaches;
+    for (const Eigen::Vector3d& p : points) {
+      if ((p - wrist).dot(forearm.axis()) > 0) reaches.push_back((p - wrist).norm());
+    }
+    return quantile(std::move(reaches), kFingertip);
+  }
+
+  /// The scan's points to which the arm is nearer than the rest of the body.
+  [[nodiscard]] std::vector<Eigen::Vector3d> pointsOf(const Arm& arm) const {
+    const KdTree tree(positions_);
+    std::vector<Eigen::Vector3d> points;
+    Eigen::AlignedBox3d box;
+    for (std::size_t v = 0; v < positions_.size(); ++v) {
+      if (isMoved(arm.shoulder(), v)) box.extend(positions_[v]);
+    }
+    const Eigen::Vector3d room = Eigen::Vector3d::Constant(kCap * target_.diagonal);
+    box.extend(Eigen::Vector3d(box.min() - room)).extend(Eigen::Vector3d(box.max() + room));
+    for (const Eigen::Vector3d& p : target_.points) {
+      if (box.contains(p) && isMoved(arm.shoulder(), tree.nearest(p).point)) points.push_back(p);
+    }
+    return points;
+  }
+
+  bool turn(const Joint& joint) {
+    const auto joined = centreOf(joint);
+    if (!joined) return false;
+    const Eigen::Vector3d& centre = *joined;
     std::vector<Eigen::Vector3d> limb, limbNormals, rest;
     for (std::size_t v = 0; v < positions_.size(); ++v) {
       if (isMoved(joint, v)) {
@@ -197,14 +279,21 @@ class ArmFinder {
   }
 
   void move(const Joint& joint, const Eigen::Matrix3d& turn, const Eigen::Vector3d& centre) {
+    moveBy({turn, 1, centre - turn * centre}, joint);
+  }
+  void stretch(const Joint& joint, const Eigen::Vector3d& centre, double factor, double most) {
+    factor = std::clamp(factor, kLeastStretch, most);
+    moveBy({Eigen::Matrix3d::Identity(), factor, (1 - factor) * centre}, joint);
+  }
+  void moveBy(const Similarity& motion, const Joint& joint) {
     for (std::size_t v = 0; v < positions_.size(); ++v) {
       if (!isMoved(joint, v)) continue;
-      positions_[v] = turn * (positions_[v] - centre) + centre;
-      normals_[v] = turn * normals_[v];
+      positions_[v] = motion.apply(positions_[v]);
+      normals_[v] = motion.rotation * normals_[v];
     }
     for (const std::size_t s : joint.moved) {
-      motions_[s].rotation = turn * motions_[s].rotation;
-      motions_[s].shift = turn * (motions_[s].shift - centre) + centre;
+      Similarity& at = arms_.motions[s];
+      at = {motion.rotation * at.rotation, motion.scale * at.scale, motion.apply(at.shift)};
     }
   }
 
@@ -213,15 +302,14 @@ class ArmFinder {
   const Places& places_;
   Eigen::Matrix3d upright_;
   const Target& target_;
-  std::vector<Similarity> motions_;
+  Arms arms_;
 };
 
 }  // namespace
 
-std::optional<std::vector<Similarity>> findArms(const Shape& body,
-                                                const std::vector<std::uint32_t>& segmentOf,
-                                                const Places& own, const Eigen::Matrix3d& upright,
-                                                const Target& target) {
+std::optional<Arms> findArms(const Shape& body, const std::vector<std::uint32_t>& segmentOf,
+                             const Places& own, const Eigen::Matrix3d& upright,
+                             const Target& target) {
   if (segmentOf.empty()) return std::nullopt;
   return ArmFinder(body, segmentOf, own, upright, target).run();
 }

@@ -22,11 +22,11 @@ constexpr double kTangential = 0.02;  // price of sliding, against that of leavi
 constexpr double kFamilyPrice = 0.03;
 constexpr double kAgreement = 0.5;  // least dot product of normals
 constexpr std::array kStiffness = {10.0, 1.0, 0.1, 0.01, 0.001, 0.0001};
+static_assert(kStiffness.size() == CoarseSchedule{}.end);
 constexpr std::array kPinWeight = {10.0, 10.0, 3.0, 1.0, 0.3, 0.1};
 /// Beyond four medians and this share of the scan's diagonal no pair counts: wide at first, so that
 /// a hand that lies beside the scan's still finds it.
 constexpr std::array kReach = {0.03, 0.02, 0.012, 0.006, 0.003, 0.003};
-constexpr int kRounds = 3;  // of each stiffness
 
 using Block = Eigen::Matrix<double, kPerNode, kPerNode>;
 using Column = Eigen::Matrix<double, kPerNode, 1>;
@@ -34,8 +34,9 @@ using Lever = Eigen::Vector4d;
 
 class System {
  public:
-  explicit System(const CoarseProblem& problem)
+  System(const CoarseProblem& problem, const Target& target)
       : problem_(problem),
+        target_(target),
         graph_(problem.graph),
         nodes_(problem.graph.vertexOfNode.size()),
         members_(problem.family.size()),
@@ -188,7 +189,7 @@ class System {
 
   /// Nearest points, and how much each counts: weight_ (3 x 3) and pull_ = weight_ times where to.
   void weigh(const Shape& now, double reach) {
-    const Target& target = problem_.target;
+    const Target& target = target_;
     const std::size_t count = now.positions.size();
     std::vector<KdTree::Neighbour> near(count);
     constexpr std::size_t kChunk = 512;
@@ -221,7 +222,6 @@ class System {
   /// A pin acts on its nearest vertex, which shall come as far beside the pin's place as it lies
   /// beside the pin now.
   void weighPins(const Shape& now, double weight) {
-    const double price = weight / static_cast<double>(problem_.pins.size());
     for (const Pin& pin : problem_.pins) {
       Eigen::Index nearest = 0;
       pin.weights.maxCoeff(&nearest);
@@ -230,7 +230,11 @@ class System {
       for (std::size_t c = 0; c < 3; ++c) {
         beside -= pin.weights[static_cast<Eigen::Index>(c)] * now.positions[pin.vertices[c]];
       }
-      weight_[v] += price * Eigen::Matrix3d::Identity();
+      const Eigen::Matrix3d price =
+          weight * pin.weight *
+          (pin.along ? Eigen::Matrix3d(*pin.along * pin.along->transpose())
+                     : Eigen::Matrix3d(Eigen::Matrix3d::Identity()));
+      weight_[v] += price;
       pull_[v] += price * (pin.place + beside - base_[v]);
     }
   }
@@ -265,7 +269,7 @@ class System {
     for (auto& sum : sums) sum.setZero();
     for (const auto& use : pair.uses) {
       const Eigen::Matrix3d& w = weight_[use.vertex];
-      if (w(0, 0) == 0 && w(1, 1) == 0) continue;
+      if (w.trace() == 0) continue;
       const Eigen::Matrix4d outer =
           levers_[use.vertex][use.slotA] * levers_[use.vertex][use.slotB].transpose();
       sums[0] += w(0, 0) * outer;
@@ -375,6 +379,7 @@ class System {
   }
 
   const CoarseProblem& problem_;
+  const Target& target_;
   const Graph& graph_;
   std::size_t nodes_, members_;
   Eigen::Index size_;
@@ -394,16 +399,17 @@ class System {
 
 }  // namespace
 
-std::optional<CoarseFit> fitCoarse(const CoarseProblem& problem, Progress* progress) {
-  System system(problem);
+std::optional<CoarseFit> fitCoarse(const std::vector<Triangle>& triangles,
+                                   const CoarseProblem& problem, const Target& target,
+                                   const CoarseSchedule& schedule, Progress* progress) {
+  System system(problem, target);
   CoarseFit fit = system.start();
-  for (std::size_t level = 0; level < kStiffness.size(); ++level) {
-    for (int round = 0; round < kRounds; ++round) {
+  for (std::size_t level = schedule.first; level < schedule.end; ++level) {
+    for (int round = 0; round < schedule.rounds; ++round) {
       if (isCancelled(progress)) return std::nullopt;
-      const Shape now = makeShape(problem.triangles, std::move(fit.positions));
+      const Shape now = makeShape(triangles, std::move(fit.positions));
       // A factorisation can fail only by rounding; what is reached then is still a fit.
-      const bool isDone =
-          system.step(now, kStiffness[level], problem.pinScale * kPinWeight[level], kReach[level]);
+      const bool isDone = system.step(now, kStiffness[level], kPinWeight[level], kReach[level]);
       fit = system.read();
       if (!isDone) return fit;
     }
