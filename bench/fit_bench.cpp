@@ -34,7 +34,10 @@ void BM_FitBodyTemplate(benchmark::State& state) {
   }
   state.counters["scan_to_fit_mm"] = distance;
 }
-BENCHMARK(BM_FitBodyTemplate)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_FitBodyTemplate)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 /// The parametric body to a scan with holes and noise, both fits.
 void BM_FitParametricBody(benchmark::State& state) {
@@ -46,7 +49,10 @@ void BM_FitParametricBody(benchmark::State& state) {
     if (!fit) return state.SkipWithError(fit.error().message.c_str());
   }
 }
-BENCHMARK(BM_FitParametricBody)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(BM_FitParametricBody)
+    ->Unit(benchmark::kMillisecond)
+    ->MeasureProcessCPUTime()
+    ->UseRealTime();
 
 }  // namespace
 }  // namespace toile

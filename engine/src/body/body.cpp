@@ -7,6 +7,7 @@
 #include <array>
 #include <cmath>
 
+#include "body/body_mesh.h"
 #include "body/body_template.h"
 #include "body/expected.h"
 #include "body/fit_dials.h"
@@ -132,7 +133,7 @@ Result<std::vector<BodyRange>> bodyRanges(const BodyOptions& options) {
   return ranges;
 }
 
-Result<ReferenceModel> makeBody(const BodyOptions& options) {
+Result<Mesh> body::makeBodyMesh(const BodyOptions& options) {
   const Result<Wish> wish = readWish(options);
   if (!wish) return wish.error();
   const Measures standard = body::standardMeasures(wish->form, wish->given.at(BodyMeasure::Height));
@@ -157,10 +158,14 @@ Result<ReferenceModel> makeBody(const BodyOptions& options) {
         "no body has these measures together; leave out or change the one that is most unusual for "
         "the others");
   }
-  const Mesh& connectivity = *body::bodyTemplate().mesh;
-  ReferenceModel model = makeReferenceModel(
-      "body",
-      connectivity.withPositions(body::inPosture(body::meshPositions(*cage), options.posture)));
+  return body::bodyTemplate().mesh->withPositions(
+      body::inPosture(body::meshPositions(*cage), options.posture));
+}
+
+Result<ReferenceModel> makeBody(const BodyOptions& options) {
+  Result<Mesh> mesh = body::makeBodyMesh(options);
+  if (!mesh) return mesh.error();
+  ReferenceModel model = makeReferenceModel("body", *std::move(mesh));
   model.curves = body::bodyTemplate().curves;
   model.landmarks = body::bodyTemplate().landmarks;
   model.symmetry = body::bodyTemplate().symmetry;

@@ -7,6 +7,7 @@
 #include <limits>
 #include <optional>
 
+#include "body/body_mesh.h"
 #include "fit/fitter.h"
 #include "toile/core/parallel.h"
 
@@ -22,6 +23,7 @@ constexpr double kVaried = 0.06;
 constexpr double kPlainlyIn = 1.5;
 constexpr double kPossible = 4;
 
+using body::makeBodyMesh;
 using fitting::Draft;
 using fitting::Fitter;
 using fitting::Misfit;
@@ -34,8 +36,8 @@ using Family = std::vector<std::shared_ptr<const Mesh>>;
 Family makeFamily(const std::vector<BodyOptions>& members) {
   Family made(members.size());
   parallelFor(members.size(), [&](std::size_t i) {
-    const Result<ReferenceModel> body = makeBody(members[i]);
-    if (body) made[i] = body->mesh;
+    Result<Mesh> body = makeBodyMesh(members[i]);
+    if (body) made[i] = std::make_shared<const Mesh>(*std::move(body));
   });
   std::erase(made, nullptr);
   return made;
@@ -153,9 +155,9 @@ BodyOptions bodyWith(const std::vector<Length>& measured, double masculine) {
       if (!ranges) break;
       BodyOptions next = options;
       next.measures[measure] = std::clamp(measured[i], (*ranges)[i].least, (*ranges)[i].most);
-      if (!isTried || makeBody(next)) options = std::move(next);
+      if (!isTried || makeBodyMesh(next)) options = std::move(next);
     }
-    if (isTried || makeBody(options)) return options;
+    if (isTried || makeBodyMesh(options)) return options;
   }
   return {};
 }
@@ -168,10 +170,9 @@ std::optional<BodyOptions> bodyLike(const Mesh& standing) {
   std::array<double, kForms.size()> distance{};
   parallelFor(kForms.size(), [&](std::size_t i) {
     options[i] = bodyWith(measured, kForms[i]);
-    const Result<ReferenceModel> body = makeBody(options[i]);
+    const Result<Mesh> body = makeBodyMesh(options[i]);
     const bool isBody = body && options[i].measures.contains(BodyMeasure::Height);
-    distance[i] =
-        isBody ? meanSquare(*body->mesh, standing) : std::numeric_limits<double>::infinity();
+    distance[i] = isBody ? meanSquare(*body, standing) : std::numeric_limits<double>::infinity();
   });
   const auto best = std::min_element(distance.begin(), distance.end()) - distance.begin();
   if (!std::isfinite(distance[static_cast<std::size_t>(best)])) return std::nullopt;
@@ -191,6 +192,7 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
   FitOptions common;
   common.landmarks = options.landmarks;
   common.landmarkError = options.landmarkError;
+  common.hasMittens = true;
   common.limits = options.limits;
   const Error cancelled{ErrorCode::Cancelled, "the fit was cancelled", {}};
 

@@ -31,6 +31,8 @@ constexpr std::array kReach = {0.03, 0.02, 0.012, 0.006, 0.003, 0.003};
 using Block = Eigen::Matrix<double, kPerNode, kPerNode>;
 using Column = Eigen::Matrix<double, kPerNode, 1>;
 using Lever = Eigen::Vector4d;
+using FamilyColumns = Eigen::Matrix<double, kPerNode, Eigen::Dynamic>;  // one per member
+using Added = Eigen::Matrix<double, 3, Eigen::Dynamic>;
 
 class System {
  public:
@@ -151,7 +153,14 @@ class System {
     for (auto& [ends, list] : uses) {
       pairs_.push_back({ends.first, ends.second, std::move(list), Block::Zero(), {}});
     }
-    familyColumns_.assign(nodes_ * members_, Column::Zero());
+    const auto columns = static_cast<Eigen::Index>(members_);
+    familyColumns_.assign(nodes_, FamilyColumns::Zero(kPerNode, columns));
+    added_.assign(levers_.size(), Added(3, columns));
+    for (std::size_t b = 0; b < members_; ++b) {
+      for (std::size_t v = 0; v < added_.size(); ++v) {
+        added_[v].col(static_cast<Eigen::Index>(b)) = problem_.family[b][v];
+      }
+    }
     weight_.resize(levers_.size());
     pull_.resize(levers_.size());
   }
@@ -293,15 +302,14 @@ class System {
   }
 
   void sumNode(std::size_t k, Column& pull) {
-    for (std::size_t b = 0; b < members_; ++b) familyColumns_[k * members_ + b].setZero();
+    FamilyColumns& columns = familyColumns_[k];
+    columns.setZero();
+    Added moved(3, columns.cols());
     for (const auto& use : usesOfNode_[k]) {
       const Lever& y = levers_[use.vertex][use.slotA];
       for (Eigen::Index j = 0; j < 4; ++j) pull.segment<3>(3 * j) += y[j] * pull_[use.vertex];
-      for (std::size_t b = 0; b < members_; ++b) {
-        const Eigen::Vector3d moved = weight_[use.vertex] * problem_.family[b][use.vertex];
-        Column& column = familyColumns_[k * members_ + b];
-        for (Eigen::Index j = 0; j < 4; ++j) column.segment<3>(3 * j) += y[j] * moved;
-      }
+      moved.noalias() = weight_[use.vertex].lazyProduct(added_[use.vertex]);
+      for (Eigen::Index j = 0; j < 4; ++j) columns.middleRows<3>(3 * j) += y[j] * moved;
     }
   }
 
@@ -356,25 +364,32 @@ class System {
 
   /// The family among itself and with the nodes, from the vertices' weights.
   void addFamily() {
-    for (std::size_t b = 0; b < members_; ++b) {
+    // In parts of fixed size, so that sums do not depend on the threads.
+    constexpr std::size_t kPart = 1024;
+    const auto columns = static_cast<Eigen::Index>(members_);
+    std::vector<Eigen::MatrixXd> sums((added_.size() + kPart - 1) / kPart,
+                                      Eigen::MatrixXd::Zero(columns, columns + 1));
+    parallelFor(sums.size(), [&](std::size_t part) {
+      Added moved(3, columns);
+      for (std::size_t v = part * kPart; v < std::min(added_.size(), (part + 1) * kPart); ++v) {
+        moved.noalias() = weight_[v].lazyProduct(added_[v]);
+        sums[part].leftCols(columns).noalias() += added_[v].transpose().lazyProduct(moved);
+        sums[part].col(columns).noalias() += added_[v].transpose().lazyProduct(pull_[v]);
+      }
+    });
+    for (std::size_t part = 1; part < sums.size(); ++part) sums.front() += sums[part];
+    for (Eigen::Index b = 0; b < columns; ++b) {
       for (std::size_t k = 0; k < nodes_; ++k) {
         for (Eigen::Index j = 0; j < kPerNode; ++j) {
-          const Eigen::Index column = at(k) + j;
-          const Eigen::Index end = matrix_.outerIndexPtr()[column + 1];
-          matrix_.valuePtr()[end - static_cast<Eigen::Index>(members_ - b)] =
-              familyColumns_[k * members_ + b][j];
+          const Eigen::Index end = matrix_.outerIndexPtr()[at(k) + j + 1];
+          matrix_.valuePtr()[end - (columns - b)] = familyColumns_[k](j, b);
         }
       }
-      std::vector<double> sums(members_ + 1, 0.0);
-      for (std::size_t v = 0; v < weight_.size(); ++v) {
-        const Eigen::Vector3d moved = weight_[v] * problem_.family[b][v];
-        for (std::size_t c = b; c < members_; ++c) sums[c] += moved.dot(problem_.family[c][v]);
-        sums[members_] += pull_[v].dot(problem_.family[b][v]);
-      }
-      double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[familyAt(b)];
-      for (std::size_t c = b; c < members_; ++c) column[c - b] = sums[c];
+      const Eigen::Index own = familyAt(static_cast<std::size_t>(b));
+      double* column = matrix_.valuePtr() + matrix_.outerIndexPtr()[own];
+      for (Eigen::Index c = b; c < columns; ++c) column[c - b] = sums.front()(c, b);
       column[0] += kFamilyPrice;
-      right_[familyAt(b)] = sums[members_];
+      right_[own] = sums.front()(b, columns);
     }
   }
 
@@ -388,7 +403,8 @@ class System {
   std::vector<Eigen::Vector3d> base_;
   std::vector<Pair> pairs_;
   std::vector<std::vector<Pair::Use>> usesOfNode_;
-  std::vector<Column> familyColumns_;  // node by node
+  std::vector<FamilyColumns> familyColumns_;  // per node
+  std::vector<Added> added_;                  // per vertex, what the family adds
   std::vector<Eigen::Matrix3d> weight_;
   std::vector<Eigen::Vector3d> pull_;
   Eigen::SparseMatrix<double> matrix_;

@@ -69,14 +69,18 @@ class Smoother {
     }
   }
 
-  /// One round; false when cancelled or no system could be solved.
-  [[nodiscard]] bool improve(std::vector<Eigen::Vector3d>& positions,
+  /// What the points asked lie nearest to. Lengths are in the size of the template's edges: a
+  /// body's are 9 mm so measured.
+  [[nodiscard]] std::vector<Hit> hits(const std::vector<Eigen::Vector3d>& positions) const {
+    const double edge = edgeOf(makeShape(mesh_.triangles(), positions));
+    return nearestFaces(mesh_.withPositions(positions), target_, asked_, edge);
+  }
+
+  /// One round; false when no system could be solved.
+  [[nodiscard]] bool improve(std::vector<Eigen::Vector3d>& positions, const std::vector<Hit>& hits,
                              const std::vector<char>& isHeld) {
     const Shape shape = makeShape(mesh_.triangles(), positions);
-    const double edge = std::sqrt(shape.totalArea / static_cast<double>(mesh_.faceCount()));
-    // Lengths in the size of the template's edges: a body's are 9 mm so measured.
-    const std::vector<Hit> hits =
-        nearestFaces(mesh_.withPositions(positions), target_, asked_, 1.0 * edge);
+    const double edge = edgeOf(shape);
     std::vector<double> found;
     for (const Hit& hit : hits) {
       if (hit.distance >= 0) found.push_back(hit.distance);
@@ -136,6 +140,10 @@ class Smoother {
   }
 
  private:
+  [[nodiscard]] double edgeOf(const Shape& shape) const {
+    return std::sqrt(shape.totalArea / static_cast<double>(mesh_.faceCount()));
+  }
+
   const Mesh& mesh_;
   const Target& target_;
   std::vector<std::uint32_t> asked_;
@@ -150,11 +158,13 @@ std::optional<std::vector<Eigen::Vector3d>> fitFine(const Mesh& connectivity, co
   Smoother smoother(connectivity, target);
   std::vector<char> isHeld(coarse.positions.size(), 0);
   std::vector<Eigen::Vector3d> positions;
+  const std::vector<Hit> first = smoother.hits(coarse.positions);
   for (int repair = 0; repair <= kRepairs; ++repair) {
     positions = coarse.positions;
     for (int round = 0; round < kRounds; ++round) {
       if (isCancelled(progress)) return std::nullopt;
-      if (!smoother.improve(positions, isHeld)) break;
+      const bool isFirst = round == 0;
+      if (!smoother.improve(positions, isFirst ? first : smoother.hits(positions), isHeld)) break;
     }
     std::vector<char> isTurned(positions.size(), 0);
     bool any = false;

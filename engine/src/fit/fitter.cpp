@@ -43,16 +43,14 @@ Result<void> checkSize(const Mesh& mesh, const std::string& name, const std::str
   constexpr double kLeast = 5;
   constexpr double kMost = 20000;
   if (own < kLeast || own > kMost) {
-    return Error{
-        ErrorCode::UnitsMissing,
-        fmt::format("the template {} is {:.4g} mm across: is its unit right? Give --units",
-                    name, own),
-        {}};
+    return Error{ErrorCode::UnitsMissing,
+                 fmt::format("the template {} is {:.4g} mm across: is its unit right? Give --units",
+                             name, own),
+                 {}};
   }
   // Turned boxes differ in their diagonals, by 1.7 at most.
   constexpr double kTurned = 1.8;
-  if (ratio > limits.leastScale / kTurned &&
-      ratio < limits.mostScale * kTurned) {
+  if (ratio > limits.leastScale / kTurned && ratio < limits.mostScale * kTurned) {
     return {};
   }
   constexpr std::array<FileUnit, 4> kUnits = {FileUnit::Millimetre, FileUnit::Centimetre,
@@ -71,20 +69,18 @@ Result<void> checkSize(const Mesh& mesh, const std::string& name, const std::str
       ErrorCode::UnitsMissing,
       fmt::format("{} is {:.4g} mm across, the template {:.4g} mm{}; say the unit of the "
                   "file with --units",
-                  scanName, target.diagonal, own,
-                  likely.empty() ? "" : ": is it " + likely + "?"),
+                  scanName, target.diagonal, own, likely.empty() ? "" : ": is it " + likely + "?"),
       {}};
 }
-
 
 }  // namespace
 
 Result<Target> prepareTarget(const Scan& scan) {
   if (scan.points.size() < kFewestPoints) {
-    return Error{ErrorCode::InvalidArgument,
-                 fmt::format("the scan {} has {} points; that is too few", scan.name,
-                             scan.points.size()),
-                 {}};
+    return Error{
+        ErrorCode::InvalidArgument,
+        fmt::format("the scan {} has {} points; that is too few", scan.name, scan.points.size()),
+        {}};
   }
   return makeTarget(scan);
 }
@@ -144,8 +140,7 @@ std::optional<Draft> Fitter::draftFrom(const Draft& near, const Target& target) 
   Draft draft;
   draft.placement = near.placement;
   const Shape there = makeShape(mesh_.triangles(), near.coarse.positions);
-  draft.placement.similarity =
-      bestSimilarity(mesh_.positions(), there.positions, there.area);
+  draft.placement.similarity = bestSimilarity(mesh_.positions(), there.positions, there.area);
   CoarseProblem& problem = draft.problem;
   problem.graph = near.problem.graph;
   problem.rest = placed(draft.placement.similarity);
@@ -172,7 +167,8 @@ std::optional<Draft> Fitter::draftFrom(const Draft& near, const Target& target) 
 
 Misfit Fitter::misfit(const Draft& draft, const Target& target) const {
   const Shape shape = makeShape(mesh_.triangles(), draft.coarse.positions);
-  const double diagonal = (mesh_.boxMax() - mesh_.boxMin()).norm() * draft.placement.similarity.scale;
+  const double diagonal =
+      (mesh_.boxMax() - mesh_.boxMin()).norm() * draft.placement.similarity.scale;
   const double stray = options_.limits.strayDistance.value() * diagonal;
   // By vertices alone, so with some room for what lies between them.
   const auto farShare = [](const std::vector<Eigen::Vector3d>& points,
@@ -205,10 +201,9 @@ Result<Fit> Fitter::finish(const Draft& draft, const Target& target) const {
   const Similarity& placed = draft.placement.similarity;
   fit.placement.linear() = placed.scale * placed.rotation;
   fit.placement.translation() = placed.shift;
-  const std::vector<std::uint32_t> segments =
-      segmentOfPoints(mesh_.positions(), placesOf(model_));
-  fit.report =
-      judge({*fit.model.mesh, target, draft.placement, expected, segments, options_.limits});
+  const std::vector<std::uint32_t> regions = regionOfPoints(mesh_.positions(), placesOf(model_));
+  fit.report = judge({*fit.model.mesh, target, draft.placement, expected, regions, options_.limits,
+                      options_.hasMittens});
   fit.report.familySize = options_.family.size();
   std::vector<double> misses;
   for (const auto& [name, place] : options_.landmarks) {
@@ -270,8 +265,8 @@ void Fitter::pose(const Placement& placement, const Target& target, CoarseProble
     pin.weight = kLevelWeight / static_cast<double>(arms->levels.size());
     pin.place.setZero();
     for (std::size_t c = 0; c < 3; ++c) {
-      pin.place += pin.weights[static_cast<Eigen::Index>(c)] *
-                   problem.rest.positions[pin.vertices[c]];
+      pin.place +=
+          pin.weights[static_cast<Eigen::Index>(c)] * problem.rest.positions[pin.vertices[c]];
     }
   }
 }

@@ -34,8 +34,8 @@ struct Foot {
   double distance = 0;
 };
 
-std::vector<Foot> feetOn(const Mesh& mesh, const std::vector<Eigen::Vector3d>& points) {
-  const detail::BoundingTree tree(mesh);
+std::vector<Foot> feetOn(const Mesh& mesh, const detail::BoundingTree& tree,
+                         const std::vector<Eigen::Vector3d>& points) {
   std::vector<Foot> feet(points.size());
   constexpr std::size_t kChunk = 1024;
   parallelFor((points.size() + kChunk - 1) / kChunk, [&](std::size_t chunk) {
@@ -63,7 +63,7 @@ std::vector<Foot> feetOn(const Mesh& mesh, const std::vector<Eigen::Vector3d>& p
 class Judge {
  public:
   explicit Judge(const Judged& fit)
-      : fit_(fit), diagonal_((fit.mesh.boxMax() - fit.mesh.boxMin()).norm()) {}
+      : fit_(fit), tree_(fit.mesh), diagonal_((fit.mesh.boxMax() - fit.mesh.boxMin()).norm()) {}
 
   FitReport run() {
     measureScan();
@@ -79,7 +79,7 @@ class Judge {
 
  private:
   void measureScan() {
-    feet_ = feetOn(fit_.mesh, fit_.target.points);
+    feet_ = feetOn(fit_.mesh, tree_, fit_.target.points);
     double total = 0, stray = 0;
     for (std::size_t i = 0; i < feet_.size(); ++i) {
       const double area = fit_.target.area[i];
@@ -120,7 +120,7 @@ class Judge {
       back[v] = p - above * n;
       isMissing_[v] = std::sqrt(near.squaredDistance) > gap ? 1 : 0;
     }
-    const std::vector<Foot> feet = feetOn(fit_.mesh, back);
+    const std::vector<Foot> feet = feetOn(fit_.mesh, tree_, back);
     std::vector<double> kept, areas, trips;
     double missing = 0;
     for (std::size_t v = 0; v < count; ++v) {
@@ -144,19 +144,19 @@ class Judge {
   }
 
   void measureRegions() {
-    const bool isBody = !fit_.segmentOfVertex.empty();
+    const bool isBody = !fit_.regionOfVertex.empty();
     const std::size_t regions = isBody ? bodySegments().size() : 1;
     std::vector<std::vector<double>> distances(regions), areas(regions);
     std::vector<double> total(regions, 0.0), missing(regions, 0.0);
     for (std::size_t i = 0; i < feet_.size(); ++i) {
       if (isStray(i)) continue;
       const std::uint32_t v = fit_.mesh.vertices(FaceId(feet_[i].face))[0].index();
-      const std::size_t r = isBody ? fit_.segmentOfVertex[v] : 0;
+      const std::size_t r = isBody ? fit_.regionOfVertex[v] : 0;
       distances[r].push_back(feet_[i].distance);
       areas[r].push_back(fit_.target.area[i]);
     }
     for (std::size_t v = 0; v < shape_.area.size(); ++v) {
-      const std::size_t r = isBody ? fit_.segmentOfVertex[v] : 0;
+      const std::size_t r = isBody ? fit_.regionOfVertex[v] : 0;
       total[r] += shape_.area[v];
       if (isMissing_[v] != 0) missing[r] += shape_.area[v];
     }
@@ -216,6 +216,7 @@ class Judge {
     }
     for (const FitRegion& region : report_.regions) {
       if (region.scanToFit.percentile95 < kRegionOff * meanLimit()) continue;
+      if (fit_.hasMittens && region.name.ends_with("hand")) continue;
       report_.findings.push_back(
           {"fit-region-off",
            fmt::format(
@@ -241,6 +242,7 @@ class Judge {
   }
 
   const Judged& fit_;
+  detail::BoundingTree tree_;
   double diagonal_;
   FitReport report_;
   Shape shape_;

@@ -13,8 +13,9 @@ struct Judged {
   const Target& target;
   const Placement& placement;
   const Expectation& expected;
-  const std::vector<std::uint32_t>& segmentOfVertex;  ///< or empty
+  const std::vector<std::uint32_t>& regionOfVertex;  ///< or empty
   const FitLimits& limits;
+  bool hasMittens = false;  ///< fingers that stick out of the hands are nothing to tell
 };
 
 /// Distances, turned and crossing faces, and whether they keep the limits.

@@ -120,4 +120,22 @@ std::vector<std::uint32_t> segmentOfPoints(const std::vector<Eigen::Vector3d>& p
   return segmentOf;
 }
 
+std::vector<std::uint32_t> regionOfPoints(const std::vector<Eigen::Vector3d>& points,
+                                          const Places& landmarks) {
+  std::vector<std::uint32_t> regionOf = segmentOfPoints(points, landmarks);
+  if (regionOf.empty()) return regionOf;
+  const std::vector<Segment>& segments = bodySegments();
+  for (std::uint32_t forearm = 0; forearm + 1 < segments.size(); ++forearm) {
+    if (!segments[forearm].name.ends_with("forearm")) continue;
+    const std::uint32_t hand = forearm + 1;
+    const Eigen::Vector3d elbow = *centre(segments[forearm].from, landmarks);
+    const Eigen::Vector3d wrist = *centre(segments[forearm].to, landmarks);
+    for (std::size_t i = 0; i < points.size(); ++i) {
+      if (regionOf[i] != forearm && regionOf[i] != hand) continue;
+      regionOf[i] = (points[i] - wrist).dot(wrist - elbow) > 0 ? hand : forearm;
+    }
+  }
+  return regionOf;
+}
+
 }  // namespace toile::fitting

@@ -26,4 +26,8 @@ struct Segment {
 [[nodiscard]] std::vector<std::uint32_t> segmentOfPoints(const std::vector<Eigen::Vector3d>& points,
                                                          const Places& landmarks);
 
+/// The same for reports, where a hand begins at the level of the wrist's landmarks.
+[[nodiscard]] std::vector<std::uint32_t> regionOfPoints(const std::vector<Eigen::Vector3d>& points,
+                                                        const Places& landmarks);
+
 }  // namespace toile::fitting

@@ -19,8 +19,8 @@ constexpr double kStep = 1.0 / 80;
 constexpr double kHalfSlice = 1.0 / 40;
 constexpr double kRadius = 0.4;
 
-constexpr double kGrown = 1.2;     // of the least girth: here the hand begins
-constexpr double kAsThin = 1.03;   // of the least girth: the wrist is in the middle of such
+constexpr double kGrown = 1.2;       // of the least girth: here the hand begins
+constexpr double kAsThin = 1.03;     // of the least girth: the wrist is in the middle of such
 constexpr std::size_t kFewest = 10;  // points that make a slice
 
 using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;

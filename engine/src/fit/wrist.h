@@ -14,8 +14,9 @@ struct Forearm {
   [[nodiscard]] Eigen::Vector3d axis() const { return (wrist - elbow).normalized(); }
 };
 
-/// Where an arm is thinnest before the hand, mm along the axis from the elbow: girths of thin slices
-/// (of their convex hulls) from the middle of the forearm on, until they have grown by a fifth.
+/// Where an arm is thinnest before the hand, mm along the axis from the elbow: girths of thin
+/// slices (of their convex hulls) from the middle of the forearm on, until they have grown by a
+/// fifth.
 /// @param points of the arm and the hand; what lies far from the axis is left out
 /// @return nothing where the girth never grows like that: no hand, or a sleeve
 [[nodiscard]] std::optional<double> wristAlong(const Forearm& forearm,

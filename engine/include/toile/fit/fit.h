@@ -36,6 +36,7 @@ struct FitOptions {
   /// three that lie on it or at its joints.
   std::map<std::string, Eigen::Vector3d> landmarks = {};
   Length landmarkError = Length::mm(5);  ///< how far they may be off: less weighs more
+  bool hasMittens = false;  ///< the template's hands have no fingers, which the scan's have
   FitLimits limits = {};
 };
 
