@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "curve/strip.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <numbers>
@@ -15,6 +16,12 @@ constexpr double kStraightAngle = 1e-10;
 /// A path that passes a vertex at less than this part of the edge goes through it: far below any
 /// length that matters, far above rounding.
 constexpr double kVertexPart = 1e-11;
+/// Sine of the angle below which a path runs along an edge, and the place where it passes over it
+/// is not to be had from the distances of the edge's ends.
+constexpr double kAlongEdge = 1e-9;
+/// Sine of the angle by which rounding may put the end of a path beside a side of the funnel; such
+/// a path passes through the side's vertex all the same (kVertexPart).
+constexpr double kBesideSide = 1e-12;
 
 double cross(const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
   return u.x() * v.y() - u.y() * v.x();
@@ -134,13 +141,20 @@ void Strip::pullTight() {
     return last + 1;
   };
 
+  // Whether the way must turn at a side of the funnel, by the cross product outwards. Where side
+  // and end are in line only if the end is beyond: it may lie on the portal itself.
+  const auto isPast = [](const Point& side, const Point& to, double outwards, bool isEnd) {
+    if (!isEnd || !(outwards > 0)) return outwards > 0;
+    return outwards > kBesideSide * side.norm() * to.norm() || side.dot(to) > side.squaredNorm();
+  };
+
   for (std::size_t i = 1; i < count; ++i) {
     const Portal& portal = portals_[i];
     const bool isEnd = i + 1 == count;
     if (isEnd || portal.rightVertex != portals_[i - 1].rightVertex) {
       const Point to = portal.right - tip;
       if (cross(right - tip, to) >= 0) {
-        if (cross(left - tip, to) > 0) {
+        if (isPast(left - tip, to, cross(left - tip, to), isEnd)) {
           i = turnAt(true);
           continue;
         }
@@ -151,7 +165,7 @@ void Strip::pullTight() {
     if (isEnd || portal.leftVertex != portals_[i - 1].leftVertex) {
       const Point to = portal.left - tip;
       if (cross(left - tip, to) <= 0) {
-        if (cross(right - tip, to) < 0) {
+        if (isPast(right - tip, to, -cross(right - tip, to), isEnd)) {
           i = turnAt(false);
           continue;
         }
@@ -222,10 +236,19 @@ int Strip::rerouteCorners() {
 
 SurfacePoint Strip::pointOnPortal(std::size_t i, const Point& from, const Point& to) const {
   const Portal& portal = portals_[i];
+  const Point along = to - from, across = portal.left - portal.right;
   // Distances of the portal's ends from the line; a vertex that several portals share has the same
   // one in all of them, so that a path close to it stays straight across its fan.
-  const double leftOf = cross(to - from, portal.left - from);
-  const double rightOf = -cross(to - from, portal.right - from);
+  double leftOf = cross(along, portal.left - from);
+  double rightOf = -cross(along, portal.right - from);
+  if (!(leftOf + rightOf > kAlongEdge * along.norm() * across.norm())) {
+    // Along the portal: over it where its ends lie on the two sides of it, or half way.
+    const double start = cross(across, from - portal.right), end = cross(across, to - portal.right);
+    const double part = start * end < 0 ? start / (start - end) : 0.5;
+    rightOf =
+        std::clamp((from + part * along - portal.right).dot(across), 0.0, across.squaredNorm());
+    leftOf = across.squaredNorm() - rightOf;
+  }
   const double sum = leftOf + rightOf;
   if (!(rightOf > kVertexPart * sum)) return {portal.rightVertex};
   if (!(leftOf > kVertexPart * sum)) return {portal.leftVertex};

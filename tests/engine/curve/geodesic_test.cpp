@@ -270,6 +270,34 @@ TEST(Geodesic, PassesAVertexForAllSpokesOrNone) {
   }
 }
 
+// Ends in the two faces of an edge, both on it but for rounding: the way runs along the edge and
+// passes over it between them, not at the edge's end.
+TEST(Geodesic, RunsAlongAnEdgeFromOneSideToTheOther) {
+  const auto mesh = share(test::icosphere(100, 2));
+  GeodesicLinker linker(mesh);
+  for (std::size_t e = 0; e < 100; ++e) {
+    const HalfedgeId h = mesh->halfedge(EdgeId(e)), other = mesh->opposite(h);
+    const auto beside = [&](HalfedgeId side, double along, double hair) {
+      Vector3d weights = Vector3d::Constant(hair);
+      const int from = mesh->side(side);
+      weights[from] = side == h ? 1 - along : along;
+      weights[(from + 1) % 3] = side == h ? along : 1 - along;
+      // Not by makeSurfacePoint(), which would put it on the edge.
+      return SurfacePoint{SurfacePoint::InFace{mesh->face(side), weights}};
+    };
+    for (const double hair : {1e-14, 1e-20, 1e-27}) {
+      for (const double gap : {-0.3, -1e-4, -1e-7, 1e-7, 1e-4, 0.3}) {
+        const SurfacePoint a = beside(h, 0.4, hair), b = beside(other, 0.4 + gap, 0.7 * hair);
+        const Result<SurfacePath> path = linker.link(a, b);
+        ASSERT_TRUE(path) << path.error();
+        ASSERT_TRUE(isValid(*mesh, *path));
+        EXPECT_NEAR(length(*mesh, *path), (position(*mesh, a) - position(*mesh, b)).norm(), 1e-9)
+            << hair << " beside edge " << e << ", " << gap << " of it apart";
+      }
+    }
+  }
+}
+
 TEST(Geodesic, MovesWithTheMesh) {
   // Without symmetry: where two ways are equally long, rounding may choose.
   const Eigen::Matrix3d skew{{1, 0.13, 0.31}, {0.07, 1.1, 0.05}, {0.02, 0.17, 0.9}};
