@@ -80,8 +80,7 @@ struct Heap {
       for (const Triangle& t : mesh.triangles()) {
         const std::array<std::uint32_t, 3> c = {first + t[0].index(), first + t[1].index(),
                                                 first + t[2].index()};
-        const Vector3d weighted =
-            (points[c[1]] - points[c[0]]).cross(points[c[2]] - points[c[0]]);
+        const Vector3d weighted = (points[c[1]] - points[c[0]]).cross(points[c[2]] - points[c[0]]);
         for (const std::uint32_t v : c) normals[v] += weighted;
         faces.push_back({c, label[p]});
       }
@@ -107,8 +106,7 @@ Dots draw(const Heap& heap, const Side& side, int most) {
   Vector2d high = -low;
   for (std::size_t i = 0; i < seen.size(); ++i) {
     const Vector3d& p = heap.points[i];
-    seen[i] = {p.dot(right), p.dot(up), p.dot(out),
-               static_cast<float>(heap.normals[i].dot(lamp))};
+    seen[i] = {p.dot(right), p.dot(up), p.dot(out), static_cast<float>(heap.normals[i].dot(lamp))};
     low = low.cwiseMin(Vector2d(seen[i].x, seen[i].y));
     high = high.cwiseMax(Vector2d(seen[i].x, seen[i].y));
   }
@@ -162,7 +160,8 @@ struct DotBox {
   int left, bottom, right, top;
 };
 
-/// The outlines of the dots of a kind, which lie in a box, their steps cut across and what is nearly straight made so.
+/// The outlines of the dots of a kind, which lie in a box, their steps cut across and what is
+/// nearly straight made so.
 template <class IsIn>
 std::vector<Points2> outlinesOf(const Dots& dots, const DotBox& box, const IsIn& isIn) {
   // Steps along the edges of dots, the inside on their left; two may begin at one corner.

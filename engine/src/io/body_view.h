@@ -13,7 +13,7 @@ namespace toile {
 struct BodyView {
   std::string from;  ///< "the front"
   Eigen::Vector2d size{0, 0};
-  double mmPerUnit = 1;  ///< of the model
+  double mmPerUnit = 1;                      ///< of the model
   std::vector<Points2> body;                 ///< its silhouette
   std::vector<Points2> shade, deepShade;     ///< what turns away from the light
   std::vector<std::vector<Points2>> pieces;  ///< per pattern piece: what is seen of it

@@ -36,4 +36,9 @@ using FaceRegions = FaceData<std::uint32_t>;
 [[nodiscard]] FaceRegions partTurnedRegions(const ReferenceModel& model, const FaceRegions& regions,
                                             const FaceData<FaceId>& mirrored);
 
+/// Parts each chosen region in two where it bends most, its mirror image alike.
+[[nodiscard]] FaceRegions partRegions(const ReferenceModel& model, const FaceRegions& regions,
+                                      const std::vector<char>& isChosen,
+                                      const FaceData<FaceId>& mirrored);
+
 }  // namespace toile::detail

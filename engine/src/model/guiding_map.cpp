@@ -13,6 +13,7 @@
 #include "model/conformal_map.h"
 #include "model/face_regions.h"
 #include "model/rigid_relaxation.h"
+#include "model/untangle.h"
 #include "toile/core/nearest_name.h"
 #include "toile/core/parallel.h"
 
@@ -143,8 +144,78 @@ class ChartFlattener {
         across_(side == MapSide::Back ? -1 : 1),
         chart_(chartMesh(*model.mesh, facts.faces)) {}
 
-  /// Places of the chart's vertices, ascending.
-  [[nodiscard]] std::vector<Vector2d> flatten() const {
+  /// Places of the chart's vertices, ascending, some triangles maybe the wrong side up; nothing
+  /// where the numbers give out.
+  [[nodiscard]] std::vector<Vector2d> flattenRoughly() const {
+    const detail::ConformalPatch patch = this->patch();
+    std::vector<Vector2d> places = detail::conformalMap(patch);
+    if (!places.empty()) detail::relaxRigid(patch, places);
+    return places;
+  }
+  /// The part of the chart's area that lies the wrong side up.
+  [[nodiscard]] double turnedShare(const std::vector<Vector2d>& places) const {
+    if (places.empty() || !(facts_.area > 0)) return 0;
+    double turned = 0;
+    for (std::size_t i = 0; i < chart_.triangles.size(); ++i) {
+      const auto& t = chart_.triangles[i];
+      if (!(crossProduct(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]) > 0))
+        turned += mesh_.area(facts_.faces[i]);
+    }
+    return turned / facts_.area;
+  }
+  /// The part of its area on the map in which a chart lies on itself.
+  [[nodiscard]] double overlap(const std::vector<Vector2d>& places) const {
+    if (places.empty()) return 0;
+    constexpr double kDots = 20000;
+    double area = 0;
+    Vector2d low = places.front();
+    Vector2d high = low;
+    for (const Vector2d& p : places) {
+      low = low.cwiseMin(p);
+      high = high.cwiseMax(p);
+    }
+    for (const auto& t : chart_.triangles)
+      area +=
+          0.5 * std::abs(crossProduct(places[t[1]] - places[t[0]], places[t[2]] - places[t[0]]));
+    const double dot = std::sqrt(area / kDots);
+    const Vector2d size = (high - low) / dot;
+    constexpr double kMostDots = 4e6;  // of what lies far apart
+    if (!(dot > 0) || !(size.x() * size.y() < kMostDots)) return 1;
+    const auto columns = static_cast<std::size_t>(size.x()) + 1;
+    std::vector<std::uint16_t> layers(columns * (static_cast<std::size_t>(size.y()) + 1), 0);
+    for (const auto& t : chart_.triangles) {
+      const std::array<Vector2d, 3> p = {(places[t[0]] - low) / dot, (places[t[1]] - low) / dot,
+                                         (places[t[2]] - low) / dot};
+      const double turn = crossProduct(p[1] - p[0], p[2] - p[0]) < 0 ? -1 : 1;
+      const Vector2d first = p[0].cwiseMin(p[1]).cwiseMin(p[2]);
+      const Vector2d last = p[0].cwiseMax(p[1]).cwiseMax(p[2]);
+      for (auto y = static_cast<std::size_t>(first.y()); static_cast<double>(y) <= last.y(); ++y) {
+        for (auto x = static_cast<std::size_t>(first.x()); static_cast<double>(x) <= last.x();
+             ++x) {
+          const Vector2d at(static_cast<double>(x) + 0.5, static_cast<double>(y) + 0.5);
+          bool isInside = true;
+          for (std::size_t k = 0; k < 3; ++k)
+            isInside &= turn * crossProduct(p[(k + 1) % 3] - p[k], at - p[k]) > 0;
+          if (isInside) ++layers[y * columns + x];
+        }
+      }
+    }
+    const auto covered = std::count_if(layers.begin(), layers.end(), [](auto n) { return n > 0; });
+    const auto twice = std::count_if(layers.begin(), layers.end(), [](auto n) { return n > 1; });
+    return covered > 0 ? static_cast<double>(twice) / static_cast<double>(covered) : 0;
+  }
+  /// The rough places put right.
+  [[nodiscard]] std::vector<Vector2d> flatten(std::vector<Vector2d> rough) const {
+    const detail::ConformalPatch patch = this->patch();
+    if (rough.empty()) return patch.start;
+    detail::untangle(patch, rough);
+    if (!rectify(rough)) return patch.start;
+    return rough;
+  }
+  [[nodiscard]] const ChartMesh& mesh() const { return chart_; }
+
+ private:
+  [[nodiscard]] detail::ConformalPatch patch() const {
     detail::ConformalPatch patch;
     patch.triangles = chart_.triangles;
     for (const VertexId v : chart_.vertices) patch.positions.push_back(mesh_.position(v));
@@ -156,15 +227,9 @@ class ChartFlattener {
             chart_.vertices.begin()));
     }
     patch.start = seen();
-    std::vector<Vector2d> places = detail::conformalMap(patch);
-    if (places.empty()) return patch.start;
-    detail::relaxRigid(patch, places);
-    if (!rectify(places)) return patch.start;
-    return places;
+    return patch;
   }
-  [[nodiscard]] const ChartMesh& mesh() const { return chart_; }
 
- private:
   /// The chart as it is seen from where it looks to, about its centre.
   [[nodiscard]] std::vector<Vector2d> seen() const {
     Vector3d right = across_ * Vector3d::UnitX();
@@ -342,12 +407,98 @@ class ChartSpreader {
   std::vector<ChartBox> boxes_;
 };
 
-GuidingMap mapOf(const ReferenceModel& model, const detail::FaceRegions& regions) {
+std::uint32_t countOf(const detail::FaceRegions& regions) {
   std::uint32_t count = 0;
   for (const std::uint32_t r : regions.values()) count = std::max(count, r + 1);
-  const std::vector<ChartFacts> facts =
-      factsOf(model, count, regions, detail::mirroredFaces(model));
-  return flattenCharts(model, nameCharts(facts), regions);
+  return count;
+}
+
+/// Its places are those of an earlier chart, mirrored; or it has none.
+bool isCopied(const std::vector<ChartFacts>& facts, std::size_t c) {
+  return (facts[c].mirror != kNone && facts[c].mirror < c) || facts[c].faces.empty();
+}
+
+using RoughPlaces = std::vector<std::vector<Vector2d>>;
+
+/// Charts and their rough places to a map.
+GuidingMap finishMap(const ReferenceModel& model, std::vector<MapChart> charts,
+                     FaceData<std::uint32_t> chartOf, const std::vector<ChartFacts>& facts,
+                     const FaceData<FaceId>& mirrored, RoughPlaces rough) {
+  const Mesh& mesh = *model.mesh;
+  GuidingMap map;
+  map.charts = std::move(charts);
+  map.chartOf = std::move(chartOf);
+  map.corners = FaceData<std::array<Vector2d, 3>>(
+      mesh.faceCount(), {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()});
+  parallelFor(facts.size(), [&](std::size_t c) {
+    if (isCopied(facts, c)) return;
+    const ChartFlattener flattener(model, facts[c], map.charts[c].side, facts[c].mirror == c);
+    const std::vector<Vector2d> places = flattener.flatten(std::move(rough[c]));
+    for (std::size_t i = 0; i < facts[c].faces.size(); ++i) {
+      const auto& t = flattener.mesh().triangles[i];
+      map.corners[facts[c].faces[i]] = {places[t[0]], places[t[1]], places[t[2]]};
+    }
+  });
+  for (std::size_t c = 0; c < facts.size(); ++c) {
+    if (!isCopied(facts, c)) continue;
+    for (const FaceId f : facts[c].faces) {
+      const FaceId image = mirrored[f];
+      for (std::size_t k = 0; k < 3; ++k) {
+        const VertexId partner = model.symmetry->partner[mesh.vertices(f)[k]];
+        const Triangle& t = mesh.vertices(image);
+        const auto at =
+            static_cast<std::size_t>(std::find(t.begin(), t.end(), partner) - t.begin());
+        map.corners[f][k] = mirroredPlace(map.corners[image][at]);
+      }
+    }
+  }
+  ChartSpreader spreader(map, facts);
+  spreader.spread(MapSide::Front);
+  spreader.spread(MapSide::Back);
+  return map;
+}
+
+/// Rough places of all charts but those that mirror an earlier one.
+RoughPlaces flattenRoughly(const ReferenceModel& model, const std::vector<MapChart>& charts,
+                           const std::vector<ChartFacts>& facts) {
+  RoughPlaces rough(facts.size());
+  parallelFor(facts.size(), [&](std::size_t c) {
+    if (isCopied(facts, c)) return;
+    rough[c] =
+        ChartFlattener(model, facts[c], charts[c].side, facts[c].mirror == c).flattenRoughly();
+  });
+  return rough;
+}
+
+/// The proposed charts; those that no flat map of them could show are parted further.
+GuidingMap mapOf(const ReferenceModel& model, detail::FaceRegions regions) {
+  // Of a chart: hands are not worth another one.
+  constexpr double kMostTurned = 0.03;
+  constexpr double kMostOverlap = 0.1;
+  constexpr int kMostPartings = 6;
+  const FaceData<FaceId> mirrored = detail::mirroredFaces(model);
+  for (int parting = 0;; ++parting) {
+    const std::vector<ChartFacts> facts = factsOf(model, countOf(regions), regions, mirrored);
+    std::vector<MapChart> charts = nameCharts(facts);
+    RoughPlaces rough = flattenRoughly(model, charts, facts);
+    std::vector<char> isTangled(facts.size(), 0);
+    for (std::size_t c = 0; c < facts.size(); ++c) {
+      if (isCopied(facts, c)) continue;
+      const ChartFlattener chart(model, facts[c], charts[c].side, facts[c].mirror == c);
+      const bool isFit =
+          chart.turnedShare(rough[c]) <= kMostTurned && chart.overlap(rough[c]) <= kMostOverlap;
+      isTangled[c] = isFit ? 0 : 1;
+    }
+    if (parting < kMostPartings && std::count(isTangled.begin(), isTangled.end(), 1) > 0) {
+      detail::FaceRegions parted = detail::partRegions(model, regions, isTangled, mirrored);
+      if (countOf(parted) > countOf(regions)) {
+        regions = std::move(parted);
+        continue;
+      }
+    }
+    return finishMap(model, std::move(charts), std::move(regions), facts, mirrored,
+                     std::move(rough));
+  }
 }
 
 }  // namespace
@@ -396,43 +547,10 @@ Result<GuidingMap> makeGuidingMap(const ReferenceModel& model,
 
 GuidingMap flattenCharts(const ReferenceModel& model, std::vector<MapChart> charts,
                          FaceData<std::uint32_t> chartOf) {
-  const Mesh& mesh = *model.mesh;
   const FaceData<FaceId> mirrored = detail::mirroredFaces(model);
   const std::vector<ChartFacts> facts = factsOf(model, charts.size(), chartOf, mirrored);
-  GuidingMap map;
-  map.charts = std::move(charts);
-  map.chartOf = std::move(chartOf);
-  map.corners = FaceData<std::array<Vector2d, 3>>(
-      mesh.faceCount(), {Vector2d::Zero(), Vector2d::Zero(), Vector2d::Zero()});
-  const auto isCopied = [&](std::size_t c) {
-    return facts[c].mirror != kNone && facts[c].mirror < c;
-  };
-  parallelFor(facts.size(), [&](std::size_t c) {
-    if (isCopied(c) || facts[c].faces.empty()) return;
-    const ChartFlattener flattener(model, facts[c], map.charts[c].side, facts[c].mirror == c);
-    const std::vector<Vector2d> places = flattener.flatten();
-    for (std::size_t i = 0; i < facts[c].faces.size(); ++i) {
-      const auto& t = flattener.mesh().triangles[i];
-      map.corners[facts[c].faces[i]] = {places[t[0]], places[t[1]], places[t[2]]};
-    }
-  });
-  for (std::size_t c = 0; c < facts.size(); ++c) {
-    if (!isCopied(c)) continue;
-    for (const FaceId f : facts[c].faces) {
-      const FaceId image = mirrored[f];
-      for (std::size_t k = 0; k < 3; ++k) {
-        const VertexId partner = model.symmetry->partner[mesh.vertices(f)[k]];
-        const Triangle& t = mesh.vertices(image);
-        const auto at =
-            static_cast<std::size_t>(std::find(t.begin(), t.end(), partner) - t.begin());
-        map.corners[f][k] = mirroredPlace(map.corners[image][at]);
-      }
-    }
-  }
-  ChartSpreader spreader(map, facts);
-  spreader.spread(MapSide::Front);
-  spreader.spread(MapSide::Back);
-  return map;
+  RoughPlaces rough = flattenRoughly(model, charts, facts);
+  return finishMap(model, std::move(charts), std::move(chartOf), facts, mirrored, std::move(rough));
 }
 
 GuidingMap carryGuidingMap(const GuidingMap& map, const ReferenceModel& model,

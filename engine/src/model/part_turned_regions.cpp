@@ -62,8 +62,26 @@ class TurnedRegion {
   }
 
   /// Whether each face looks backwards along the axis that shows most of the region.
-  [[nodiscard]] std::vector<char> part() const {
-    const Eigen::Vector3d axis = choosePartingAxis();
+  [[nodiscard]] std::vector<char> part() const { return part(choosePartingAxis(), 0); }
+
+  /// Whether each face looks less far along an axis than the region does on the whole: of the axis
+  /// along which its faces look most differently, or of the next one if that parts too little off.
+  [[nodiscard]] std::vector<char> partAtBends() const {
+    constexpr double kLeastPart = 0.06;
+    std::vector<char> isBack;
+    for (const Eigen::Vector3d& axis : bendingAxes()) {
+      isBack = part(axis, meanLook(axis));
+      double back = 0;
+      for (std::size_t i = 0; i < isBack.size(); ++i)
+        if (isBack[i] != 0) back += mesh_.area(faces_[i]);
+      if (std::min(back, area_ - back) > kLeastPart * area_) break;
+    }
+    return isBack;
+  }
+  [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
+
+ private:
+  [[nodiscard]] std::vector<char> part(const Eigen::Vector3d& axis, double level) const {
     // Border is worth as much as a strip of this width that looks the wrong way.
     const double width = 0.02 * std::sqrt(area_);
     const double unit = 1e9 / (area_ + 1);
@@ -73,7 +91,7 @@ class TurnedRegion {
     const Node sink = faces_.size() + 1;
     for (std::size_t i = 0; i < faces_.size(); ++i) {
       // Exactly sidewards counts as front, as on the sheet.
-      const double looks = 1e-6 * areaOf(faces_[i]) - lookOf(faces_[i], axis);
+      const double looks = (level + 1e-6) * areaOf(faces_[i]) - lookOf(faces_[i], axis);
       if (looks > 0) addArcs(graph, source, i, whole(looks), 0);
       if (looks < 0) addArcs(graph, i, sink, whole(-looks), 0);
       for (int side = 0; side < 3; ++side) {
@@ -95,9 +113,6 @@ class TurnedRegion {
       isBack[i] = graph[i].color == boost::black_color ? 0 : 1;
     return isBack;
   }
-  [[nodiscard]] const std::vector<FaceId>& faces() const { return faces_; }
-
- private:
   [[nodiscard]] Eigen::Vector3d choosePartingAxis() const {
     constexpr double kFrontFirst = 0.8;  // front and back, unless another way shows much more
     const std::array<Eigen::Vector3d, 3> axes{Eigen::Vector3d::UnitY(), Eigen::Vector3d::UnitX(),
@@ -110,6 +125,28 @@ class TurnedRegion {
     const std::size_t most =
         static_cast<std::size_t>(std::max_element(shown.begin(), shown.end()) - shown.begin());
     return shown[0] >= kFrontFirst * shown[most] ? axes[0] : axes[most];
+  }
+  /// Those along which the faces look most differently first.
+  [[nodiscard]] std::vector<Eigen::Vector3d> bendingAxes() const {
+    std::vector<std::pair<double, Eigen::Vector3d>> axes;
+    for (const Eigen::Vector3d& axis :
+         {Eigen::Vector3d(0, 0, 1), Eigen::Vector3d(0, 1, 0), Eigen::Vector3d(1, 0, 0)}) {
+      if (isSymmetric_ && std::abs(axis.dot(model_.symmetry->normal)) > 0.5) continue;
+      const double mean = meanLook(axis);
+      double differs = 0;
+      for (const FaceId f : faces_) differs += std::abs(lookOf(f, axis) - mean * areaOf(f));
+      axes.emplace_back(differs, axis);
+    }
+    std::stable_sort(axes.begin(), axes.end(),
+                     [](const auto& a, const auto& b) { return a.first > 1.001 * b.first; });
+    std::vector<Eigen::Vector3d> sorted;
+    for (const auto& [differs, axis] : axes) sorted.push_back(axis);
+    return sorted;
+  }
+  [[nodiscard]] double meanLook(const Eigen::Vector3d& axis) const {
+    double sum = 0;
+    for (const FaceId f : faces_) sum += lookOf(f, axis);
+    return sum / area_;
   }
   [[nodiscard]] double areaOf(FaceId f) const {
     return isSymmetric_ ? 0.5 * (mesh_.area(f) + mesh_.area(mirrored_[f])) : mesh_.area(f);
@@ -138,14 +175,23 @@ class TurnedRegion {
 
 }  // namespace
 
-FaceRegions partTurnedRegions(const ReferenceModel& model, const FaceRegions& regions,
-                              const FaceData<FaceId>& mirrored) {
-  constexpr double kLeastShare = 0.01;
+namespace {
+
+std::vector<std::vector<FaceId>> facesOfRegions(const FaceRegions& regions) {
   std::vector<std::vector<FaceId>> faces;
   for (std::size_t i = 0; i < regions.size(); ++i) {
     faces.resize(std::max<std::size_t>(faces.size(), regions[FaceId(i)] + 1));
     faces[regions[FaceId(i)]].push_back(FaceId(i));
   }
+  return faces;
+}
+constexpr double kLeastShare = 0.01;
+
+}  // namespace
+
+FaceRegions partTurnedRegions(const ReferenceModel& model, const FaceRegions& regions,
+                              const FaceData<FaceId>& mirrored) {
+  std::vector<std::vector<FaceId>> faces = facesOfRegions(regions);
   FaceRegions out(regions.size());
   for (std::size_t r = 0; r < faces.size(); ++r) {
     for (const FaceId f : faces[r]) out[f] = static_cast<std::uint32_t>(2 * r);
@@ -154,6 +200,28 @@ FaceRegions partTurnedRegions(const ReferenceModel& model, const FaceRegions& re
     const std::vector<char> isBack = region.part();
     for (std::size_t i = 0; i < isBack.size(); ++i)
       if (isBack[i] != 0) ++out[region.faces()[i]];
+  }
+  return tidyRegions(*model.mesh, out, kLeastShare);
+}
+
+FaceRegions partRegions(const ReferenceModel& model, const FaceRegions& regions,
+                        const std::vector<char>& isChosen, const FaceData<FaceId>& mirrored) {
+  std::vector<std::vector<FaceId>> faces = facesOfRegions(regions);
+  FaceRegions out(regions.size());
+  for (std::size_t i = 0; i < regions.size(); ++i) out[FaceId(i)] = 2 * regions[FaceId(i)];
+  std::vector<char> isDone(faces.size(), 0);
+  for (std::size_t r = 0; r < faces.size(); ++r) {
+    if (isChosen[r] == 0 || isDone[r] != 0 || faces[r].empty()) continue;
+    const TurnedRegion region(model, mirrored, std::move(faces[r]));
+    const std::vector<char> isBack = region.partAtBends();
+    for (std::size_t i = 0; i < isBack.size(); ++i) {
+      const FaceId f = region.faces()[i];
+      if (isBack[i] != 0) ++out[f];
+      if (mirrored.empty() || regions[mirrored[f]] == r) continue;
+      // Its mirror image is parted alike.
+      if (isBack[i] != 0) ++out[mirrored[f]];
+      isDone[regions[mirrored[f]]] = 1;
+    }
   }
   return tidyRegions(*model.mesh, out, kLeastShare);
 }

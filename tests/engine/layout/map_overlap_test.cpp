@@ -48,21 +48,22 @@ bool crossProperly(const Segment& s, const Segment& t) {
   return side(s, t[0]) * side(s, t[1]) < 0 && side(t, s[0]) * side(t, s[1]) < 0;
 }
 
-/// Hardly a face turned over and hardly a border across another. Fingers and toes, which no piece
-/// is cut of, may fold where they meet.
-/// @param most  share of the model's area that is turned over
-void expectNoChartOnItself(const ReferenceModel& model, const std::string& name, double most) {
+/// No face turned over and hardly a border across another: fingers and toes, which no piece is cut
+/// of, may lie on their neighbours, and so may the thighs of a seated body in its lap.
+void expectNoChartOnItself(const ReferenceModel& model, const std::string& name) {
   const std::shared_ptr<const GuidingMap> map = guidingMap(model);
-  double turned = 0;
+  std::size_t turned = 0;
+  double drawn = 0;
   double whole = 0;
   for (std::size_t f = 0; f < model.mesh->faceCount(); ++f) {
     const std::array<Vector2d, 3>& c = map->corners[FaceId(f)];
     const double area = model.mesh->area(FaceId(f));
     whole += area;
-    if (cross(c[1] - c[0], c[2] - c[0]) > 0) continue;
-    turned += area;
+    drawn += 0.5 * cross(c[1] - c[0], c[2] - c[0]);
+    if (!(cross(c[1] - c[0], c[2] - c[0]) > 0)) ++turned;
   }
-  EXPECT_LE(turned / whole, most) << name;
+  EXPECT_EQ(turned, 0u) << name;
+  EXPECT_NEAR(drawn / whole, 1, 0.005) << name;
   const std::vector<std::vector<Segment>> borders = bordersOf(*model.mesh, *map);
   for (std::size_t chart = 0; chart < borders.size(); ++chart) {
     std::vector<Segment> segments = borders[chart];
@@ -75,26 +76,31 @@ void expectNoChartOnItself(const ReferenceModel& model, const std::string& name,
       for (std::size_t j = i + 1; j < segments.size() && left(segments[j]) < right(segments[i]);
            ++j)
         if (crossProperly(segments[i], segments[j])) ++crossings;
-    constexpr std::size_t kAtFingers = 4;
-    EXPECT_LE(crossings, kAtFingers) << name << ", chart " << map->charts[chart].name;
+    constexpr std::size_t kFew = 12;
+    EXPECT_LE(crossings, kFew) << name << ", chart " << map->charts[chart].name;
   }
 }
 
-TEST(GuidingMapOverlap, NoChartOfAStandingBodyLiesOnItself) {
-  // 0.4 to 1.1 % measured, all of it at the fingers.
-  for (const char* name : {"builtin:body@1?size=EU38F", "builtin:body@1?size=EU128C"}) {
+TEST(GuidingMapOverlap, NoChartOfABodyLiesOnItself) {
+  for (const char* name :
+       {"builtin:body@1?size=EU38F", "builtin:body@1?size=EU128C",
+        "builtin:body@1?size=EU38F&posture=seated", "builtin:body@1?size=EU50M&posture=seated",
+        "builtin:body@1?size=EU44F&posture=knee-bent",
+        "builtin:body@1?size=EU50M&posture=arms-raised"}) {
     const Result<ReferenceModel> model = makeBuiltinModel(name);
     ASSERT_TRUE(model) << model.error();
-    expectNoChartOnItself(*model, name, 0.015);
+    expectNoChartOnItself(*model, name);
   }
 }
 
-TEST(GuidingMapOverlap, NoChartOfALastOrAnArmchairLiesOnItself) {
-  for (const char* name : {"lasts/last_female_average_flat_l.ply", "toys/armchair.ply"}) {
+TEST(GuidingMapOverlap, NoChartOfAThingLiesOnItself) {
+  for (const char* name :
+       {"lasts/last_female_average_flat_l.ply", "toys/armchair.ply", "toys/squirrel.ply",
+        "toys/spot.ply", "bodies/female_tall_slim_cycling.ply"}) {
     TOILE_TEST_DATA_OR_SKIP(path, name);
     const Result<ReferenceModel> model = readModel(path, FileUnit::Millimetre);
     ASSERT_TRUE(model) << model.error();
-    expectNoChartOnItself(*model, name, 0.001);
+    expectNoChartOnItself(*model, name);
   }
 }
 

@@ -66,8 +66,9 @@ class GuidingMapSlot {
 ///
 /// Borders lie at sharp turns of the surface. What still turns away from itself (a body, a limb) is
 /// parted in two, by a minimum cut that weighs which way each face looks against the length of the
-/// border: into front and back, or along the direction that shows most of it. Mirrored faces get
-/// mirrored charts.
+/// border: into front and back, or along the direction that shows most of it. Charts that cannot
+/// lie flat without lying on themselves are parted further, where they bend most. Mirrored faces
+/// get mirrored charts.
 /// @par Cost  a minimum cut and one sparse factorisation a chart: bench/layout_bench.cpp
 /// @see Boykov, Kolmogorov, "An Experimental Comparison of Min-Cut/Max-Flow Algorithms for Energy
 ///   Minimization in Vision", IEEE PAMI 26(9), 2004.
@@ -81,11 +82,12 @@ Result<GuidingMap> makeGuidingMap(const ReferenceModel& model,
 /// Flattens given charts: every face's index in `charts`. Each by a least squares conformal map,
 /// with the spectral condition in place of two pins, so that no vertex is preferred; then every
 /// triangle is made as rigid as possible, since a conformal map draws limbs several times too
-/// small or too large.
+/// small or too large; then what is turned over is put right.
 /// @see Levy, Petitjean, Ray, Maillot, "Least Squares Conformal Maps for Automatic Texture Atlas
 ///   Generation", SIGGRAPH 2002; Mullen, Tong, Alliez, Desbrun, "Spectral Conformal
 ///   Parameterization", SGP 2008; Liu, Zhang, Xu, Gotsman, Gortler, "A Local/Global Approach to
-///   Mesh Parameterization", SGP 2008.
+///   Mesh Parameterization", SGP 2008; Garanzha et al., "Foldover-free Maps in 50 Lines of Code",
+///   ACM TOG 40(4), 2021.
 [[nodiscard]] GuidingMap flattenCharts(const ReferenceModel& model, std::vector<MapChart> charts,
                                        FaceData<std::uint32_t> chartOf);
 
