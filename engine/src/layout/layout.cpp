@@ -5,6 +5,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
+#include <numbers>
 #include <optional>
 
 #include "layout/clearance.h"
@@ -87,6 +89,8 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
   const std::shared_ptr<const GuidingMap> map = guidingMap(model);
   std::vector<PlacedPiece> placed;
   std::array<std::vector<std::size_t>, 2> onSide;
+  std::vector<Box2> home;  // where the map has a piece, whatever a hand did
+  Layout layout;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const std::uint32_t index = pieceIndex[i];
     if (index >= cut.pieces.size() || index >= flats.size() || flats[index] == nullptr ||
@@ -110,13 +114,14 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
     for (const OutlinePoint& p : pattern[i].cutLines.front())
       piece.cut.push_back(place.placement.apply(p.position));
     piece.grownBy = grown(piece.cut, 0.5 * kLayoutGapMm + kSameLineMm);
+    layout.beforeHands.push_back(place.placement);
+    home.push_back(boxOf(piece.cut));
     for (const HandPlacement& hand : byHand)
       if (hand.piece == pattern[i].id) placeByHand(piece, hand);
     onSide[piece.side == MapSide::Back ? 1 : 0].push_back(i);
     placed.push_back(std::move(piece));
   }
   const std::vector<std::optional<std::size_t>> mirror = makeMirrored(placed);
-  Layout layout;
   layout.placements.resize(pattern.size());
   for (const PlacedPiece& piece : placed) {
     layout.side.push_back(piece.side);
@@ -126,9 +131,15 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
 
   constexpr double kBetweenSidesMm = 4 * kLayoutGapMm;
   if (!onSide[0].empty() && !onSide[1].empty()) {
-    const double right = boxOfAll(placed, onSide[0]).max.x();
-    const double left = boxOfAll(placed, onSide[1]).min.x();
-    for (const std::size_t p : onSide[1]) placed[p].shift({right + kBetweenSidesMm - left, 0});
+    // A piece that a hand moves does not push the other side about: it counts where it was.
+    double right = std::numeric_limits<double>::lowest(), left = std::numeric_limits<double>::max();
+    const auto boxAt = [&](std::size_t p) {
+      return placed[p].byHand ? home[p] : boxOf(placed[p].cut);
+    };
+    for (const std::size_t p : onSide[0]) right = std::max(right, boxAt(p).max.x());
+    for (const std::size_t p : onSide[1]) left = std::min(left, boxAt(p).min.x());
+    layout.mapOrigin[1] = {right + kBetweenSidesMm - left, 0};
+    for (const std::size_t p : onSide[1]) placed[p].shift(layout.mapOrigin[1]);
   }
   moveAsideWhatOverlaps(placed, pattern, layout.findings);
 
@@ -139,8 +150,28 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
     piece.shift(-box.min);
     layout.placements[piece.piece] = piece.placement;
   }
+  for (Vector2d& origin : layout.mapOrigin) origin -= box.min;
   layout.max = box.size();
   return layout;
+}
+
+HandPlacement placedByHand(const Layout& layout, const PatternPiece& piece, std::size_t index,
+                           const Placement& wanted) {
+  // Notation: a, m = turn and offset of the place on the map, b = the middle of the piece turned by
+  // a. placeByHand() takes p to R (p - b - m) + b + m + move.
+  const Placement& before = layout.beforeHands[index];
+  const Placement turned{before.angle, Vector2d::Zero()};
+  std::vector<Vector2d> cut;
+  for (const OutlinePoint& p : piece.cutLines.front()) cut.push_back(turned.apply(p.position));
+  const Box2 box = boxOf(cut);
+  const Vector2d b = 0.5 * (box.min + box.max);
+  HandPlacement hand;
+  hand.piece = piece.id;
+  hand.turn = Angle::radians(std::remainder(wanted.angle - before.angle, 2 * std::numbers::pi));
+  const Placement turn{hand.turn.radians(), Vector2d::Zero()};
+  hand.move = wanted.offset - layout.mapOrigin[layout.side[index] == MapSide::Back ? 1 : 0] +
+              turn.applyToDirection(b) - b - before.offset;
+  return hand;
 }
 
 }  // namespace toile

@@ -253,6 +253,32 @@ TEST(Layout, LeavesPiecesWhereAHandPutThem) {
   EXPECT_EQ(crossed.findings[0].code, "layout-hand-overlap");
 }
 
+TEST(Layout, AHandPutsAPieceWhereItPointsTo) {
+  Pieces pieces;
+  // The first lies across the axis and is set upright by the layout, the second to its right.
+  pieces.add([](double u, double v) { return u > 150 && u < 250 && v < 200; }, 0.1);
+  pieces.add([](double u, double v) { return u >= 250 && u < 350 && v < 200; }, 0.4);
+  for (const std::size_t index : {0UL, 1UL}) {
+    // From the place of the layout, then from where the hand had put it.
+    for (const double turn : {0.5, -1.2}) {
+      const Layout layout = pieces.arranged();
+      Placement wanted = layout.placements[index];
+      wanted.angle += turn;
+      wanted.offset += Vector2d(310, 470);
+      std::erase_if(pieces.byHand,
+                    [&](const auto& hand) { return hand.piece == pieces.pattern[index].id; });
+      pieces.byHand.push_back(placedByHand(layout, pieces.pattern[index], index, wanted));
+      const Layout after = pieces.arranged();
+      EXPECT_NEAR(
+          std::remainder(after.placements[index].angle - wanted.angle, 2 * std::numbers::pi), 0,
+          1e-9);
+      // The sheet may begin elsewhere now; its map tells.
+      const Vector2d moved = after.mapOrigin[0] - layout.mapOrigin[0];
+      EXPECT_NEAR((after.placements[index].offset - wanted.offset - moved).norm(), 0, 1e-6);
+    }
+  }
+}
+
 TEST(Clearance, ShiftOutOfACup) {
   // A cup open to the right, 10 thick; a square of 10 in its middle.
   const Points2 cup{{0, 0}, {100, 0}, {100, 10}, {10, 10}, {10, 50}, {100, 50}, {100, 60}, {0, 60}};

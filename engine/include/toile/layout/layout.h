@@ -23,10 +23,21 @@ struct Layout {
   /// apart.
   std::vector<MapSide> side;
   std::vector<Placement> onMap;
+  /// Per pattern piece its place on the map by least squares alone: what a hand moves it from.
+  std::vector<Placement> beforeHands;
+  /// Where the origin of the map's front and back lie on the sheet.
+  std::array<Eigen::Vector2d, 2> mapOrigin{Eigen::Vector2d::Zero(), Eigen::Vector2d::Zero()};
   Eigen::Vector2d min = Eigen::Vector2d::Zero();  ///< box of all cut lines, mm
   Eigen::Vector2d max = Eigen::Vector2d::Zero();
   std::vector<Finding> findings;
 };
+
+/// What a hand does to bring a piece to a place on the sheet: arrange() puts it there, but for
+/// where the sheet begins.
+/// @param layout by arrange()
+/// @param index of the pattern piece
+[[nodiscard]] HandPlacement placedByHand(const Layout& layout, const PatternPiece& piece,
+                                         std::size_t index, const Placement& wanted);
 
 inline constexpr double kLayoutGapMm = 10;  ///< least distance between cut lines
 
