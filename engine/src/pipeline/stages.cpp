@@ -5,9 +5,9 @@
 
 #include <algorithm>
 #include <atomic>
-#include <set>
 
 #include "pipeline/elastics.h"
+#include "pipeline/proposed_lines.h"
 #include "pipeline/symmetric_lines.h"
 #include "pipeline/symmetric_pieces.h"
 #include "pipeline/twins.h"
@@ -33,18 +33,13 @@ void append(std::vector<Finding>& all, const std::vector<Finding>& more) {
 /// Adds the proposed cuts of every piece that cannot lie flat. @return whether there were any
 Result<bool> addProposedCuts(Pattern& pattern, std::vector<Finding>& findings) {
   Design design = *pattern.document.design;
-  std::set<std::string> known;
-  for (const StylingCurve& curve : design.curves) known.insert(curve.id);
   bool added = false;
   for (const Piece& piece : pattern.cut.pieces) {
     if (!piece.include || topology(piece).canLieFlat()) continue;
     const Result<std::vector<StylingCurve>> cuts = proposeCuts(piece, *pattern.document.model);
     if (!cuts) return cuts.error().during(quoted(piece));
     for (StylingCurve curve : *cuts) {
-      const std::string wanted = curve.id;
-      for (int n = 2; !known.insert(curve.id).second; ++n) {
-        curve.id = fmt::format("{}-{}", wanted, n);
-      }
+      curve.id = freeCurveId(design, curve.id);
       findings.push_back({"auto-cut",
                           fmt::format("{} could not lie flat and was cut open along \"{}\", the "
                                       "shortest way; draw a seam to choose another place",
