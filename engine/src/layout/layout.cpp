@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <optional>
 
@@ -89,7 +88,6 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
   const std::shared_ptr<const GuidingMap> map = guidingMap(model);
   std::vector<PlacedPiece> placed;
   std::array<std::vector<std::size_t>, 2> onSide;
-  std::vector<Box2> home;  // where the map has a piece, whatever a hand did
   Layout layout;
   for (std::size_t i = 0; i < pattern.size(); ++i) {
     const std::uint32_t index = pieceIndex[i];
@@ -115,32 +113,40 @@ Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
       piece.cut.push_back(place.placement.apply(p.position));
     piece.grownBy = grown(piece.cut, 0.5 * kLayoutGapMm + kSameLineMm);
     layout.beforeHands.push_back(place.placement);
-    home.push_back(boxOf(piece.cut));
-    for (const HandPlacement& hand : byHand)
-      if (hand.piece == pattern[i].id) placeByHand(piece, hand);
     onSide[piece.side == MapSide::Back ? 1 : 0].push_back(i);
     placed.push_back(std::move(piece));
   }
-  const std::vector<std::optional<std::size_t>> mirror = makeMirrored(placed);
+  std::vector<std::optional<std::size_t>> mirror = makeMirrored(placed);
   layout.placements.resize(pattern.size());
   for (const PlacedPiece& piece : placed) {
     layout.side.push_back(piece.side);
     layout.onMap.push_back(piece.placement);
   }
   for (const std::vector<std::size_t>& pieces : onSide) partPieces(placed, pieces, mirror);
-
   constexpr double kBetweenSidesMm = 4 * kLayoutGapMm;
   if (!onSide[0].empty() && !onSide[1].empty()) {
-    // A piece that a hand moves does not push the other side about: it counts where it was.
-    double right = std::numeric_limits<double>::lowest(), left = std::numeric_limits<double>::max();
-    const auto boxAt = [&](std::size_t p) {
-      return placed[p].byHand ? home[p] : boxOf(placed[p].cut);
-    };
-    for (const std::size_t p : onSide[0]) right = std::max(right, boxAt(p).max.x());
-    for (const std::size_t p : onSide[1]) left = std::min(left, boxAt(p).min.x());
+    const double right = boxOfAll(placed, onSide[0]).max.x();
+    const double left = boxOfAll(placed, onSide[1]).min.x();
     layout.mapOrigin[1] = {right + kBetweenSidesMm - left, 0};
-    for (const std::size_t p : onSide[1]) placed[p].shift(layout.mapOrigin[1]);
   }
+  // Hands come last, so that a piece that one moves leaves the others where they are; only what it
+  // would lie on makes way.
+  bool isAnyByHand = false;
+  for (std::size_t i = 0; i < placed.size(); ++i) {
+    for (const HandPlacement& hand : byHand) {
+      if (hand.piece != pattern[i].id) continue;
+      isAnyByHand = true;
+      placed[i].move(composed(layout.beforeHands[i], inverse(placed[i].placement)));
+      placeByHand(placed[i], hand);
+      layout.onMap[i] = placed[i].placement;
+      if (mirror[i]) mirror[*mirror[i]].reset();
+      mirror[i].reset();
+    }
+  }
+  if (isAnyByHand) {
+    for (const std::vector<std::size_t>& pieces : onSide) partPieces(placed, pieces, mirror);
+  }
+  for (const std::size_t p : onSide[1]) placed[p].shift(layout.mapOrigin[1]);
   moveAsideWhatOverlaps(placed, pattern, layout.findings);
 
   std::vector<std::size_t> all(placed.size());

@@ -82,7 +82,8 @@ Result<Edited> withShortestCuts(const Pattern& pattern, std::size_t index) {
   if (const auto known = checkIndex(pattern, index); !known) return known.error();
   const Piece& piece = pattern.cut.pieces[index];
   if (topology(piece).canLieFlat()) {
-    return Error{ErrorCode::InvalidArgument, stages::quoted(piece) + " lies flat without a cut",
+    return Error{ErrorCode::InvalidArgument,
+                 stages::quoted(piece) + " lies flat without a cut",
                  {Element::piece(piece.id)}};
   }
   Result<std::vector<StylingCurve>> cuts = proposeCuts(piece, *pattern.document.model);

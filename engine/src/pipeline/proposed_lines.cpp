@@ -83,9 +83,9 @@ AddedLines addLines(Design& design, const Pattern& pattern, std::size_t index,
   std::vector<SurfacePath> paths = proposal.companions;
   paths.insert(paths.begin(), proposal.path);
   const std::optional<std::size_t> mirror = mirrorPiece(pattern, index);
-  const bool isMirrored = mirror && !done.contains(*mirror) &&
-                          (*mirror != index ||
-                           (!proposal.isSymmetric && proposal.companions.empty() &&
+  const bool isMirrored =
+      mirror && !done.contains(*mirror) &&
+      (*mirror != index || (!proposal.isSymmetric && proposal.companions.empty() &&
                             !liesOnPlane(piece, proposal.path, *model.symmetry)));
   AddedLines lines;
   if (isMirrored) lines.alsoOn = mirror;

@@ -15,8 +15,8 @@ namespace toile {
 [[nodiscard]] std::string freeCurveId(const Design& design, const std::string& wanted);
 
 struct AddedLines {
-  std::vector<std::string> ids;              ///< of the lines on the piece
-  std::optional<std::size_t> alsoOn;         ///< the piece that got their mirror images
+  std::vector<std::string> ids;       ///< of the lines on the piece
+  std::optional<std::size_t> alsoOn;  ///< the piece that got their mirror images
 };
 /// Adds the lines of a proposal for a piece to a design, and their mirror images where the piece,
 /// or the piece on the other side, is symmetric.
