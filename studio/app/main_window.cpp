@@ -21,7 +21,6 @@
 #include "export/export_dialog.h"
 #include "jobs/long_work.h"
 #include "panels/lists.h"
-#include "panels/selection_panel.h"
 #include "pattern/pattern_view.h"
 #include "toile/pipeline.h"
 #include "tools/drawing.h"
@@ -64,6 +63,7 @@ MainWindow::MainWindow(QWidget* parent) : QMainWindow(parent), recovery_(recover
   session_.setUnit(static_cast<LengthUnit>(std::clamp(QSettings().value(kUnit, 0).toInt(), 0, 2)));
   makeActions();
   makeToolActions();
+  makePieceActions();
   makeStartPage();
   makeMenus();
   makeBars();
@@ -194,6 +194,33 @@ bool MainWindow::mayLeave() {
 }
 
 void MainWindow::closeEvent(QCloseEvent* event) {
+  if (isLongWorkRunning()) {
+    event->ignore();
+    if (closesWhenDone_) return;
+    QMessageBox box(QMessageBox::Question, tr("Toile"),
+                    tr("Work is still running. Close when it is done?"), QMessageBox::NoButton,
+                    this);
+    box.setObjectName(QStringLiteral("closeInWork"));
+    QPushButton* wait = box.addButton(tr("Close when done"), QMessageBox::AcceptRole);
+    const QAbstractButton* stop =
+        box.addButton(tr("Stop it and close"), QMessageBox::DestructiveRole);
+    box.setEscapeButton(box.addButton(tr("Stay"), QMessageBox::RejectRole));
+    box.setDefaultButton(wait);
+    box.exec();
+    const bool isStop = box.clickedButton() == stop;
+    if (!isStop && box.clickedButton() != static_cast<QAbstractButton*>(wait)) return;
+    if (isStop) stopLongWork();
+    closesWhenDone_ = true;
+    auto* done = new QTimer(this);
+    connect(done, &QTimer::timeout, this, [this, done] {
+      if (isLongWorkRunning()) return;
+      done->deleteLater();
+      closesWhenDone_ = false;
+      close();
+    });
+    done->start(50);
+    return;
+  }
   if (!mayLeave()) return event->ignore();
   keepRecent();
   backupTimer_.stop();

@@ -4,6 +4,7 @@
 #include <QMainWindow>
 #include <QTimer>
 #include <filesystem>
+#include <functional>
 #include <optional>
 
 #include "app/actions.h"
@@ -22,7 +23,7 @@ class QToolButton;
 namespace toile::studio {
 
 class PatternView;
-class SelectionPanel;
+class SidePanels;
 class StartPage;
 class Viewport;
 
@@ -86,6 +87,9 @@ class MainWindow final : public QMainWindow {
   void exportPattern();
   void setKind(CurveKind kind);
   void nextKind();
+  void makePieceActions();
+  /// With the selected piece, or tells that there is none.
+  void withPiece(const std::function<void(const std::string&)>& act);
   void setTheme(Theme theme);
   void showPanes(bool body, bool pattern);
   void showStrain(bool on);
@@ -105,7 +109,7 @@ class MainWindow final : public QMainWindow {
   StartPage* start_ = nullptr;
   QSplitter* panes_ = nullptr;
   QDockWidget* dock_ = nullptr;
-  SelectionPanel* selection_ = nullptr;
+  SidePanels* side_ = nullptr;
   QTabWidget* tabs_ = nullptr;
   QLabel* toolName_ = nullptr;
   QToolButton* kinds_[4] = {};
@@ -119,6 +123,7 @@ class MainWindow final : public QMainWindow {
   Recovery recovery_;
   Bodies bodies_{bodiesFolder()};
   QString message_;
+  bool closesWhenDone_ = false;
 };
 
 }  // namespace toile::studio

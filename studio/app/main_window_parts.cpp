@@ -22,6 +22,7 @@
 #include "app/tool_setting_bar.h"
 #include "panels/lists.h"
 #include "panels/selection_panel.h"
+#include "panels/side_panels.h"
 #include "pattern/pattern_view.h"
 #include "tools/drawing.h"
 #include "tools/tool_info.h"
@@ -88,7 +89,8 @@ void MainWindow::makeActions() {
   actions_.add("quit", tr("&Quit"), "", QKeySequence("Ctrl+Q"), [this] { close(); });
   actions_.add("undo", tr("&Undo"), "undo", QKeySequence("Ctrl+Z"), work(&Session::undo));
   actions_.add("redo", tr("&Redo"), "redo", QKeySequence("Ctrl+Shift+Z"), work(&Session::redo));
-  actions_.add("name", tr("Na&me"), "", QKeySequence("F2"), [this] { selection_->editName(); });
+  actions_.add("name", tr("Na&me"), "", QKeySequence("F2"),
+               [this] { side_->selection().editName(); });
   actions_.add("delete", tr("&Delete"), "trash", QKeySequence("Del"),
                [this] { session_.key(ToolKey::Delete); });
   actions_.add("next-kind", tr("Next line &kind"), "", QKeySequence("K"), [this] { nextKind(); });
@@ -126,6 +128,10 @@ void MainWindow::makeActions() {
                    })
         ->setChecked(true);
   }
+  actions_
+      .addToggle("show-names", tr("Names on the &body"), "label", QKeySequence(),
+                 [this](bool on) { viewport_->setLabels(on); })
+      ->setChecked(true);
   actions_.addToggle("edges", tr("Mesh &edges"), "", QKeySequence("W"),
                      [this](bool on) { viewport_->setEdges(on); });
   actions_.add("fit", tr("&Fit selection"), "fit", QKeySequence("F"),
@@ -201,6 +207,9 @@ void MainWindow::makeMenus() {
               "-",
               "see-through",
               "strain",
+              "colour-fabric",
+              "colour-piece",
+              "show-names",
               "edges",
               "-",
               "show-allowance",
@@ -231,6 +240,8 @@ void MainWindow::makeMenus() {
     line->addAction(actions_[QStringLiteral("tool-") + info.icon]);
   line->addSeparator();
   fill(line, {"next-kind", "symmetry", "snap"});
+  fill(menuBar()->addMenu(tr("&Piece")),
+       {"name", "include", "fabrics", "-", "darts", "developable", "-", "merge", "back-in-place"});
   fill(menuBar()->addMenu(tr("&Window")),
        {"panes-body", "panes-both", "panes-pattern", "-", "panel", "dark"});
 }
@@ -310,8 +321,8 @@ void MainWindow::makeDock() {
   auto* column = new QVBoxLayout(inner);
   column->setContentsMargins(0, 0, 0, 0);
   column->setSpacing(0);
-  selection_ = new SelectionPanel(session_);
-  column->addWidget(selection_);
+  side_ = new SidePanels(session_, actions_);
+  column->addWidget(side_);
   tabs_ = new QTabWidget;
   auto* pieces = new PiecesList(session_);
   auto* findings = new FindingsList(session_);
@@ -322,6 +333,7 @@ void MainWindow::makeDock() {
           [this](int count) { tabs_->setTabText(0, tr("Pieces %1").arg(count)); });
   connect(findings, &FindingsList::countChanged, this,
           [this](int count) { tabs_->setTabText(1, tr("Findings %1").arg(count)); });
+  tabs_->setMinimumHeight(220);
   column->addWidget(tabs_, 1);
   dock_->setWidget(inner);
   addDockWidget(Qt::RightDockWidgetArea, dock_);
@@ -404,6 +416,14 @@ void MainWindow::showContextMenu(const QPoint& place) {
     menu.addAction(actions_["delete"]);
     menu.addAction(actions_["fit"]);
     menu.addAction(actions_["straight"]);
+    if (session_.selection().kind == Selection::Kind::Piece) {
+      menu.addSeparator();
+      for (const char* id : {"include", "fabrics", "darts", "developable", "back-in-place"}) {
+        menu.addAction(actions_[QString::fromLatin1(id)]);
+      }
+    } else {
+      menu.addAction(actions_["merge"]);
+    }
     menu.addSeparator();
   }
   menu.addAction(actions_["undo"]);

@@ -59,7 +59,7 @@ void NumberField::setOptional(const QString& hint) {
 
 void NumberField::clearValue() {
   isEmpty_ = true;
-  clear();
+  setText({});  // clear() would count as typed
 }
 
 void NumberField::take() {
@@ -102,7 +102,7 @@ void NumberField::focusOutEvent(QFocusEvent* event) {
 
 void NumberField::paintEvent(QPaintEvent* event) {
   QLineEdit::paintEvent(event);
-  if (!isModified()) return;
+  if (!isModified() || (isOptional_ && text().trimmed().isEmpty())) return;
   const auto value = typed();
   const bool isFine = value && *value >= least_ && *value <= most_;
   const QString result = isFine ? QStringLiteral("= ") + textOf(*value) : QString(QChar(0x25b3));

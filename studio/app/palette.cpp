@@ -88,6 +88,7 @@ QComboBox::drop-down { border: 0; width: 20px; }
 QComboBox::down-arrow { image: url(:/templates/chevron-down.svg); width: 12px; height: 12px; }
 QComboBox QAbstractItemView { background: @panel; selection-background-color: @accentSoft; selection-color: @text; }
 QDockWidget, QDockWidget > QWidget, QScrollArea, QWidget#dock { background: @panel; border: 0; }
+QWidget#panelFields { background: @panel; }
 QWidget#dock { border-left: 1px solid @divider; }
 QTabWidget::pane { border: 0; border-top: 1px solid @divider; background: @panel; }
 QTabBar { background: @panel; }

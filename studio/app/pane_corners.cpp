@@ -3,6 +3,7 @@
 
 #include <QEvent>
 #include <QFrame>
+#include <QHBoxLayout>
 #include <QLabel>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -75,6 +76,28 @@ QFrame* addButtons(QWidget& pane, QPoint margin, const QList<QAction*>& actions)
   return frame;
 }
 
+/// What the colours mean while strain is not shown.
+void addColourBy(Viewport& viewport, Session& session, Actions& actions) {
+  auto* frame = new QFrame(&viewport);
+  frame->setObjectName(QStringLiteral("chip"));
+  auto* row = new QHBoxLayout(frame);
+  row->setContentsMargins(8, 2, 2, 2);
+  row->setSpacing(2);
+  auto* word = new QLabel(Viewport::tr("Colour by"));
+  word->setObjectName(QStringLiteral("second"));
+  row->addWidget(word);
+  for (const char* id : {"colour-fabric", "colour-piece"}) {
+    auto* button = new QToolButton;
+    button->setDefaultAction(actions[QString::fromLatin1(id)]);
+    button->setToolButtonStyle(Qt::ToolButtonTextOnly);
+    row->addWidget(button);
+  }
+  frame->adjustSize();
+  new Corner(viewport, *frame, Qt::BottomLeftCorner, {10, 10});
+  const auto refresh = [frame, &session] { frame->setVisible(!session.strainLook().on); };
+  QObject::connect(&session, &Session::strainChanged, frame, refresh);
+}
+
 }  // namespace
 
 void addPaneCorners(Viewport& viewport, PatternView& pattern, Session& session, Actions& actions) {
@@ -92,6 +115,7 @@ void addPaneCorners(Viewport& viewport, PatternView& pattern, Session& session, 
 
   auto* legend = new StrainLegend(session, &viewport);
   new Corner(viewport, *legend, Qt::BottomLeftCorner, {10, 10});
+  addColourBy(viewport, session, actions);
   addButtons(pattern, {12, 32},
              {actions["show-allowance"], actions["show-notches"], actions["show-grain"],
               actions["show-labels"], actions["show-features"]});

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "app/session.h"
 
+#include <algorithm>
 #include <utility>
 
 #include "document/design_store.h"
@@ -27,6 +28,7 @@ void Session::start(const Document& document, const std::filesystem::path& path,
   pattern_.reset();
   fullPattern_.reset();
   strains_.reset();
+  ghosts_.clear();
   pieces_.reset();
   pieceIds_.clear();
   patternError_.reset();
@@ -193,6 +195,30 @@ std::optional<double> Session::strainLimit() const {
     if (limit && (!least || *limit < *least)) least = limit;
   }
   return least;
+}
+
+void Session::setPieceColours(PieceColours colours) {
+  if (colours == pieceColours_) return;
+  pieceColours_ = colours;
+  Q_EMIT coloursChanged();
+}
+
+void Session::setGhosts(std::vector<Ghost> ghosts) {
+  if (ghosts.empty() && ghosts_.empty()) return;
+  ghosts_ = std::move(ghosts);
+  Q_EMIT ghostsChanged();
+}
+
+std::optional<std::size_t> Session::pieceIndex(const std::string& piece) const {
+  if (!fullPattern_ || !patternIsCurrent_) return std::nullopt;
+  const auto& pieces = fullPattern_->cut.pieces;
+  const auto found = std::ranges::find(pieces, piece, &Piece::id);
+  if (found == pieces.end()) return std::nullopt;
+  return static_cast<std::size_t>(found - pieces.begin());
+}
+
+void Session::openPanel(SidePanel panel, const std::string& piece) {
+  Q_EMIT panelWanted(panel, piece);
 }
 
 void Session::showPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& normal) {

@@ -23,6 +23,21 @@ struct StrainLook {
   friend bool operator==(const StrainLook&, const StrainLook&) = default;
 };
 
+/// What tells pieces apart where strain is not shown.
+enum class PieceColours { Fabric, Piece };
+
+/// A line that is proposed and not drawn yet, in both panes.
+struct Ghost {
+  std::vector<Eigen::Vector3d> points, normals;
+  std::string piece;                  ///< on whose plane `flat` lies
+  std::vector<Eigen::Vector2d> flat;  ///< mm
+  CurveKind kind = CurveKind::Dart;
+  QString label;
+};
+
+/// What stands above the lists: what is selected, or something that was asked for.
+enum class SidePanel { Selection, Darts, Developable, Fabrics };
+
 /// One work: document, history, selection, tool and live pattern. What windows show, they read
 /// from here, and they hear of changes by signals; they hold no state of the work themselves.
 class Session final : public QObject, public ToolHost {
@@ -72,6 +87,14 @@ class Session final : public QObject, public ToolHost {
   [[nodiscard]] const StrainLook& strainLook() const { return strainLook_; }
   /// The least that a fabric of the pattern bears of the kind shown; nothing where none says.
   [[nodiscard]] std::optional<double> strainLimit() const;
+  void setPieceColours(PieceColours colours);
+  [[nodiscard]] PieceColours pieceColours() const { return pieceColours_; }
+  void setGhosts(std::vector<Ghost> ghosts);
+  [[nodiscard]] const std::vector<Ghost>& ghosts() const { return ghosts_; }
+  /// In the cut of fullPattern(); nothing while that is not the pattern of the work.
+  [[nodiscard]] std::optional<std::size_t> pieceIndex(const std::string& piece) const;
+  /// @param piece that it is about; empty where it is about none
+  void openPanel(SidePanel panel, const std::string& piece = {});
   /// Leads the eye to a place of the body.
   void showPlace(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
 
@@ -119,6 +142,9 @@ class Session final : public QObject, public ToolHost {
   void toolMoved();    ///< hint, overlay or cursor may be others
   void hoverChanged();
   void strainChanged();
+  void coloursChanged();
+  void ghostsChanged();
+  void panelWanted(toile::studio::SidePanel panel, const std::string& piece);
   void placeWanted(const Eigen::Vector3d& place, const Eigen::Vector3d& normal);
   void told(const QString& sentence);
 
@@ -146,6 +172,8 @@ class Session final : public QObject, public ToolHost {
   std::shared_ptr<const Pattern> fullPattern_;
   Strains strains_;
   StrainLook strainLook_;
+  PieceColours pieceColours_ = PieceColours::Fabric;
+  std::vector<Ghost> ghosts_;
   std::unique_ptr<PieceFinder> pieces_;  ///< of the last full pattern
   std::vector<std::string> pieceIds_;    ///< of the same
   std::optional<Error> patternError_;

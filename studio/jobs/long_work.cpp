@@ -10,6 +10,7 @@
 #include <exception>
 #include <mutex>
 #include <thread>
+#include <utility>
 
 namespace toile::studio {
 
@@ -37,11 +38,26 @@ class Told final : public Progress {
   std::string step_;
 };
 
+/// Of the work that the window waits for.
+Told*& running() {
+  static Told* work = nullptr;
+  return work;
+}
+
 }  // namespace
+
+bool isLongWorkRunning() {
+  return running() != nullptr;
+}
+
+void stopLongWork() {
+  if (running() != nullptr) running()->cancel();
+}
 
 std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
                                        const std::function<void(Progress&)>& work) {
   Told told;
+  Told* const outer = std::exchange(running(), &told);
   std::atomic<bool> ended = false;
   std::optional<std::string> fault;
   std::thread thread([&] {
@@ -84,6 +100,7 @@ std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
     loop.exec();
   }
   thread.join();
+  running() = outer;
   return fault;
 }
 

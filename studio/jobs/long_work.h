@@ -18,6 +18,11 @@ namespace toile::studio {
 [[nodiscard]] std::optional<std::string> runLongWork(QWidget* parent, const QString& title,
                                                      const std::function<void(Progress&)>& work);
 
+/// Long work is running: the window waits in runLongWork().
+[[nodiscard]] bool isLongWorkRunning();
+/// Asks it to stop, as Cancel does.
+void stopLongWork();
+
 /// The same for a call that gives a Result.
 template <class T>
 Result<T> longWork(QWidget* parent, const QString& title,

@@ -2,9 +2,11 @@
 #include "panels/lists.h"
 
 #include <QSignalBlocker>
+#include <algorithm>
 
 #include "app/icons.h"
 #include "app/palette.h"
+#include "document/piece_colours.h"
 #include "document/strain_spots.h"
 
 namespace toile::studio {
@@ -14,6 +16,7 @@ namespace {
 constexpr int kId = Qt::UserRole;
 constexpr int kIsLine = Qt::UserRole + 1;
 constexpr int kSpot = Qt::UserRole + 2;  // number of a place of strain
+constexpr int kCure = Qt::UserRole + 3;  // number of what helps
 
 QString nameOf(const Piece& piece) {
   return QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
@@ -25,6 +28,7 @@ PiecesList::PiecesList(Session& session, QWidget* parent) : QListWidget(parent),
   setAccessibleName(tr("Pieces"));
   setObjectName(QStringLiteral("pieces"));
   connect(&session, &Session::patternChanged, this, &PiecesList::refill);
+  connect(&session, &Session::coloursChanged, this, &PiecesList::refill);
   connect(&session, &Session::selectionChanged, this, &PiecesList::showSelection);
   connect(this, &QListWidget::itemSelectionChanged, this, [this] {
     const auto selected = selectedItems();
@@ -49,11 +53,14 @@ void PiecesList::refill() {
         text += tr("  · left out");
       } else if (!isMade) {
         text += tr("  · cannot lie flat");
-      } else if (record != nullptr && record->count > 1) {
+      } else if (record == nullptr) {
+        text += tr("  · no name yet");
+      } else if (record->count > 1) {
         text += QStringLiteral("  × %1").arg(record->count);
       }
       QPixmap swatch(14, 14);
-      swatch.fill(isMade ? fabricTint(0) : studio::palette().divider);
+      swatch.fill(isMade ? pieceTint(*pattern, i, session_.pieceColours())
+                         : studio::palette().divider);
       auto* item = new QListWidgetItem(
           isMade || !piece.include ? QIcon(swatch)
                                    : icon(QStringLiteral("warn"), studio::palette().attention),
@@ -81,19 +88,49 @@ FindingsList::FindingsList(Session& session, QWidget* parent)
   setAccessibleName(tr("Findings"));
   setWordWrap(true);
   connect(&session, &Session::patternChanged, this, &FindingsList::refill);
-  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) {
-    const std::string id = item->data(kId).toString().toStdString();
-    if (id.empty()) return;
-    session_.select(item->data(kIsLine).toBool() ? Selection::line(id) : Selection::piece(id));
-    const int number = item->data(kSpot).toInt();
-    const auto& pattern = session_.fullPattern();
-    if (number == 0 || !pattern || !session_.strains()) return;
-    for (const PlacedSpot& spot :
-         worstSpots(*pattern, *session_.strains(), session_.strainLook().kind)) {
-      if (spot.number == number) session_.showPlace(spot.place, spot.normal);
-    }
+  setObjectName(QStringLiteral("findings"));
+  connect(this, &QListWidget::itemClicked, this, [this](QListWidgetItem* item) { run(*item); });
+  connect(this, &QListWidget::itemActivated, this, [this](QListWidgetItem* item) {
+    if (hasFocus()) run(*item);  // by Enter
   });
   connect(&session, &Session::strainChanged, this, &FindingsList::refill);
+}
+
+void FindingsList::run(const QListWidgetItem& item) {
+  if (const QVariant cure = item.data(kCure); cure.isValid()) {
+    // The list is filled anew while it is done.
+    const Cure chosen = cures_[static_cast<std::size_t>(cure.toInt())];
+    return apply(session_, chosen);
+  }
+  const std::string id = item.data(kId).toString().toStdString();
+  if (id.empty()) return;
+  const int number = item.data(kSpot).toInt();
+  session_.select(item.data(kIsLine).toBool() ? Selection::line(id) : Selection::piece(id));
+  const auto& pattern = session_.fullPattern();
+  if (number == 0 || !pattern || !session_.strains()) return;
+  for (const PlacedSpot& spot :
+       worstSpots(*pattern, *session_.strains(), session_.strainLook().kind)) {
+    if (spot.number == number) session_.showPlace(spot.place, spot.normal);
+  }
+}
+
+void FindingsList::addCures(const std::vector<Cure>& cures) {
+  for (const Cure& cure : cures) {
+    // Of a tube two findings tell, the cut's and the piece's; it is offered once.
+    const bool isThere = std::ranges::any_of(cures_, [&](const Cure& other) {
+      return other.kind == cure.kind && other.about == cure.about;
+    });
+    if (isThere) continue;
+    auto* item = new QListWidgetItem(
+        icon(QStringLiteral("chevron-right"), studio::palette().accentText), cure.label, this);
+    QFont font = item->font();
+    font.setWeight(QFont::DemiBold);
+    item->setFont(font);
+    item->setForeground(studio::palette().accentText);
+    item->setToolTip(tr("Does it: one step, Ctrl+Z takes it back"));
+    item->setData(kCure, static_cast<int>(cures_.size()));
+    cures_.push_back(cure);
+  }
 }
 
 void FindingsList::add(const QString& iconName, const QColor& colour, const QString& text,
@@ -124,32 +161,38 @@ void FindingsList::addSpots() {
     item->setData(kId, QString::fromStdString(piece.id));
     item->setData(kIsLine, false);
     item->setData(kSpot, spot.number);
+    if (spot.isOverLimit) addCures(curesOf(*pattern, "over-limit", {Element::piece(piece.id)}));
   }
 }
 
 void FindingsList::refill() {
   if (session_.isPatternPreview()) return;
   clear();
+  cures_.clear();
   const Palette& colours = studio::palette();
   const auto& error = session_.patternError();
   if (error) {
     add(QStringLiteral("warn"), colours.trouble, QString::fromStdString(error->message),
         error->where);
   }
-  int mates = 0;
+  int mates = 0, found = error ? 1 : 0;
   if (const auto pattern = session_.pattern()) {
     mates = static_cast<int>(pattern->cut.mates.size());
-    for (const auto& failure : pattern->failures) {
+    for (std::size_t i = 0; i < pattern->failures.size(); ++i) {
+      const auto& failure = pattern->failures[i];
       if (!failure) continue;
       add(QStringLiteral("warn"), colours.trouble, QString::fromStdString(failure->message),
           failure->where);
+      addCures(curesOf(*pattern, i, *failure));
+      ++found;
     }
     for (const Finding& finding : pattern->findings) {
       add(QStringLiteral("info"), colours.attention, QString::fromStdString(finding.message),
           finding.where);
+      addCures(curesOf(*pattern, finding.code, finding.where));
+      ++found;
     }
   }
-  const int found = count();
   if (session_.strainLook().on) addSpots();
   if (found == 0 && mates > 0) {
     add(QStringLiteral("ok"), colours.good,

@@ -4,6 +4,7 @@
 #include <QListWidget>
 
 #include "app/session.h"
+#include "panels/cures.h"
 
 namespace toile::studio {
 
@@ -24,7 +25,7 @@ class PiecesList final : public QListWidget {
   int pieces_ = 0;
 };
 
-/// What is worth knowing, in words; a row leads to its place.
+/// What is worth knowing, in words; a row leads to its place, the rows below it to what helps.
 class FindingsList final : public QListWidget {
   Q_OBJECT
  public:
@@ -37,8 +38,11 @@ class FindingsList final : public QListWidget {
   void refill();
   void add(const QString& iconName, const QColor& colour, const QString& text,
            const std::vector<Element>& where);
+  void addCures(const std::vector<Cure>& cures);
   void addSpots();
+  void run(const QListWidgetItem& item);
   Session& session_;
+  std::vector<Cure> cures_;  ///< of the rows that offer one
 };
 
 /// Every step with its name, newest first; a click goes there.

@@ -7,6 +7,7 @@
 #include <QHBoxLayout>
 #include <QLabel>
 #include <QLineEdit>
+#include <QPushButton>
 #include <QSpinBox>
 #include <QToolButton>
 #include <QVBoxLayout>
@@ -14,8 +15,11 @@
 #include <cmath>
 
 #include "app/icons.h"
+#include "app/number_field.h"
 #include "app/palette.h"
+#include "document/merge.h"
 #include "document/piece_edits.h"
+#include "panels/rows.h"
 #include "toile/edit/lines.h"
 #include "toile/edit/symmetry.h"
 #include "tools/drawing.h"
@@ -24,81 +28,48 @@ namespace toile::studio {
 
 namespace {
 
-QLabel* secondLabel(const QString& text) {
-  auto* label = new QLabel(text);
-  label->setObjectName(QStringLiteral("second"));
-  label->setWordWrap(true);
-  return label;
-}
-
-QWidget* headingRow(const QString& text, const QString& right) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 0, 0, 4);
-  auto* heading = new QLabel(text);
-  heading->setObjectName(QStringLiteral("heading"));
-  layout->addWidget(heading, 1);
-  layout->addWidget(secondLabel(right));
-  return row;
-}
-
-/// A row "word ........ number".
-QLabel* numberRow(QVBoxLayout& column, const QString& word, const QString& value, bool strong) {
-  auto* row = new QWidget;
-  auto* layout = new QHBoxLayout(row);
-  layout->setContentsMargins(0, 1, 0, 1);
-  layout->addWidget(secondLabel(word), 1);
-  auto* number = new QLabel(value);
-  number->setAlignment(Qt::AlignRight);
-  if (strong) number->setObjectName(QStringLiteral("heading"));
-  layout->addWidget(number);
-  column.addWidget(row);
-  return number;
-}
-
-QFormLayout* addForm(QVBoxLayout& column) {
-  auto* form = new QFormLayout;
-  form->setContentsMargins(0, 0, 0, 4);
-  form->setHorizontalSpacing(12);
-  form->setVerticalSpacing(8);
-  form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
-  column.addLayout(form);
-  return form;
-}
-
-/// A side of a line in the pattern, with its piece; parts of one piece's side are added up.
-struct SeamSideRow {
-  QString piece;
-  double length = 0;
+/// What is sewn together along a line: of a seam two pieces, of a dart or the seam of a tube both
+/// edges of one. Parts between the same two pieces are added up.
+struct SeamRow {
+  std::uint32_t pieceA = 0, pieceB = 0;  ///< in the cut
+  double a = 0, b = 0;                   ///< mm
 };
-/// The sides of a curve in the pattern: of a seam its two pieces, of a dart or the seam of a tube
-/// both edges of the one piece, which are sewn to each other.
-std::vector<SeamSideRow> sidesOf(const Pattern& pattern, const std::string& curve) {
-  std::vector<SeamSideRow> sides;
-  for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
-    const PatternPiece& piece = pattern.pieces[i];
-    const QString name = QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
-    const auto isSecondSide = [&](const OutlineRun& run) {
-      return std::ranges::any_of(pattern.cut.mates, [&](const SeamMates& mates) {
-        return mates.pieceA == mates.pieceB && mates.pieceA == pattern.pieceIndex[i] &&
-               mates.wireB == run.wire;
-      });
-    };
-    SeamSideRow first{name, 0}, second{name, 0};
-    for (const OutlineRun& run : piece.runs) {
-      if (run.curve == curve) (isSecondSide(run) ? second : first).length += run.length;
+std::vector<SeamRow> seamsOf(const Pattern& pattern, const std::string& curve) {
+  const auto lengthOf = [&](std::uint32_t cutIndex, std::uint32_t wire) -> std::optional<double> {
+    for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
+      if (pattern.pieceIndex[i] != cutIndex) continue;
+      for (const OutlineRun& run : pattern.pieces[i].runs) {
+        if (run.wire == wire) return run.length;
+      }
     }
-    for (const SeamSideRow& side : {first, second}) {
-      if (side.length > 0) sides.push_back(side);
+    return std::nullopt;
+  };
+  std::vector<SeamRow> rows;
+  for (const SeamMates& mates : pattern.cut.mates) {
+    if (pattern.cut.pieces[mates.pieceA].wires[mates.wireA].curve != curve) continue;
+    const auto a = lengthOf(mates.pieceA, mates.wireA), b = lengthOf(mates.pieceB, mates.wireB);
+    if (!a || !b) continue;
+    const auto known = std::ranges::find_if(rows, [&](const SeamRow& row) {
+      return row.pieceA == mates.pieceA && row.pieceB == mates.pieceB;
+    });
+    if (known == rows.end()) {
+      rows.push_back({mates.pieceA, mates.pieceB, *a, *b});
+    } else {
+      known->a += *a;
+      known->b += *b;
     }
   }
-  return sides;
+  return rows;
+}
+
+QString nameOf(const Piece& piece) {
+  return QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
 }
 
 }  // namespace
 
-SelectionPanel::SelectionPanel(Session& session, QWidget* parent)
-    : QWidget(parent), session_(session) {
+SelectionPanel::SelectionPanel(Session& session, const Actions& actions, QWidget* parent)
+    : QWidget(parent), session_(session), actions_(actions) {
   auto* column = new QVBoxLayout(this);
   column->setContentsMargins(14, 12, 14, 12);
   connect(&session, &Session::selectionChanged, this, &SelectionPanel::rebuild);
@@ -248,13 +219,20 @@ void SelectionPanel::showLine(QVBoxLayout& column, const PlacedLine& line) {
   column.addWidget(headingRow(tr("Lengths"), {}));
   length_ = numberRow(column, tr("Line on the body"), session_.lengthText(line.length()), true);
   if (!session_.pattern()) return;
-  const std::vector<SeamSideRow> runs = sidesOf(*session_.pattern(), id);
-  for (std::size_t i = 0; i < runs.size(); ++i) {
-    const QString word = runs.size() == 2 && i == 1 ? tr("Mate %1") : tr("Seam %1");
-    numberRow(column, word.arg(runs[i].piece), session_.lengthText(runs[i].length), false);
-  }
-  if (runs.size() == 2) {
-    const double difference = runs[0].length - runs[1].length;
+  showSeams(column, line, *session_.pattern());
+}
+
+void SelectionPanel::showSeams(QVBoxLayout& column, const PlacedLine& line,
+                               const Pattern& pattern) {
+  const std::string id = line.curve.id;
+  bool partsTwoPieces = false;
+  for (const SeamRow& seam : seamsOf(pattern, id)) {
+    column.addSpacing(4);
+    numberRow(column, tr("Seam %1").arg(nameOf(pattern.cut.pieces[seam.pieceA])),
+              session_.lengthText(seam.a), false);
+    numberRow(column, tr("Mate %1").arg(nameOf(pattern.cut.pieces[seam.pieceB])),
+              session_.lengthText(seam.b), false);
+    const double difference = seam.a - seam.b;
     const bool matches = std::abs(difference) < 0.05;
     QLabel* label = numberRow(
         column, tr("Difference"),
@@ -263,6 +241,72 @@ void SelectionPanel::showLine(QVBoxLayout& column, const PlacedLine& line) {
     label->setStyleSheet(
         QStringLiteral("color: %1")
             .arg((matches ? studio::palette().good : studio::palette().trouble).name()));
+    partsTwoPieces |= seam.pieceA != seam.pieceB;
+  }
+  if (!partsTwoPieces || session_.isPatternPreview()) return;
+  auto* merge = new QPushButton(tr("Merge the pieces beside it"));
+  merge->setObjectName(QStringLiteral("mergePieces"));
+  merge->setToolTip(tr("Takes the seam away: its two pieces become one"));
+  column.addSpacing(4);
+  column.addWidget(merge);
+  connect(merge, &QPushButton::clicked, this, [this, id] { mergeAlong(session_, id); });
+}
+
+void SelectionPanel::changePiece(const std::string& id, const QString& step,
+                                 const std::function<void(PieceRecord&)>& change) {
+  if (!session_.pattern()) return;
+  const auto made = withPieceRecord(session_.document(), *session_.pattern(), id, change);
+  if (!made) return;
+  // A piece keeps being selected under its new id.
+  const bool isNew = recordOf(*session_.document().design, id) == nullptr;
+  const std::string newId = isNew ? made->design->pieces.back().id : id;
+  session_.commit(step, *made);
+  session_.select(Selection::piece(newId));
+}
+
+void SelectionPanel::addPieceNumbers(QFormLayout& form, const std::string& id,
+                                     const PieceRecord* record, const QString& title) {
+  auto* grain = new NumberField(NumberField::Kind::Angle, session_.unit());
+  grain->setObjectName(QStringLiteral("pieceGrain"));
+  grain->setAccessibleName(tr("Grain, turned"));
+  grain->setRange(-360, 360);
+  grain->setValue(record != nullptr && record->grain ? record->grain->turn.degrees() : 0);
+  form.addRow(secondLabel(tr("Grain")), grain);
+  connect(grain, &NumberField::valueEntered, this, [this, id, title](double degrees) {
+    changePiece(id, tr("Grain of %1").arg(title), [degrees](PieceRecord& r) {
+      if (!r.grain) r.grain.emplace();
+      r.grain->turn = Angle::degrees(degrees);
+    });
+  });
+  const std::optional<Ease> own = record != nullptr ? record->ease : std::nullopt;
+  const std::tuple<QString, QString, Ratio Ease::*> eases[] = {
+      {tr("Ease round"), QStringLiteral("pieceEaseGirth"), &Ease::girth},
+      {tr("Ease along"), QStringLiteral("pieceEaseLength"), &Ease::length}};
+  for (const auto& [word, name, member] : eases) {
+    auto* field = new NumberField(NumberField::Kind::Share, session_.unit());
+    field->setObjectName(name);
+    field->setAccessibleName(word);
+    field->setRange(-0.5, 0.5);
+    field->setOptional(tr("as its fabric"));
+    if (own) {
+      field->setValue(((*own).*member).value());
+    } else {
+      field->clearValue();
+    }
+    form.addRow(secondLabel(word), field);
+    const QString step = tr("Ease of %1").arg(title);
+    connect(field, &NumberField::valueEntered, this,
+            [this, id, step, member = member](double share) {
+              changePiece(id, step, [&](PieceRecord& r) {
+                if (!r.ease) {
+                  const Fabric* fabric = fabricOf(*session_.document().design, &r);
+                  r.ease = fabric == nullptr ? Ease() : fabric->ease;
+                }
+                (*r.ease).*member = Ratio::of(share);
+              });
+            });
+    connect(field, &NumberField::valueCleared, this,
+            [this, id, step] { changePiece(id, step, [](PieceRecord& r) { r.ease.reset(); }); });
   }
 }
 
@@ -280,15 +324,8 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
                             : QString::fromStdString(id);
   column.addWidget(headingRow(title, tr("Piece")));
 
-  // Changes are steps of the history; a piece keeps being selected under its new id.
   const auto change = [this, id](const QString& step, const std::function<void(PieceRecord&)>& f) {
-    if (!session_.pattern()) return;
-    const auto made = withPieceRecord(session_.document(), *session_.pattern(), id, f);
-    if (!made) return;
-    const bool isNew = recordOf(*session_.document().design, id) == nullptr;
-    const std::string newId = isNew ? made->design->pieces.back().id : id;
-    session_.commit(step, *made);
-    session_.select(Selection::piece(newId));
+    changePiece(id, step, f);
   };
 
   QFormLayout* form = addForm(column);
@@ -305,6 +342,7 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
   });
 
   auto* fabric = new QComboBox;
+  fabric->setObjectName(QStringLiteral("pieceFabric"));
   fabric->setAccessibleName(tr("Fabric"));
   if (design.fabrics.empty()) fabric->addItem(tr("Any cloth"));
   for (std::size_t i = 0; i < design.fabrics.size(); ++i) {
@@ -316,7 +354,12 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
   }
   const Fabric* used = fabricOf(design, record);
   if (used != nullptr) fabric->setCurrentIndex(static_cast<int>(used - design.fabrics.data()));
-  form->addRow(secondLabel(tr("Fabric")), fabric);
+  auto* fabricRow = new QHBoxLayout;
+  fabricRow->addWidget(fabric, 1);
+  auto* edit = new QToolButton;
+  edit->setDefaultAction(actions_["fabrics"]);
+  fabricRow->addWidget(edit);
+  form->addRow(secondLabel(tr("Fabric")), fabricRow);
   connect(fabric, &QComboBox::activated, this, [this, change, title](int i) {
     const auto& fabrics = session_.document().design->fabrics;
     if (i < 0 || static_cast<std::size_t>(i) >= fabrics.size()) return;
@@ -326,6 +369,7 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
 
   auto* count = new QSpinBox;
   count->setRange(1, 999);
+  count->setButtonSymbols(QAbstractSpinBox::NoButtons);
   count->setValue(record != nullptr ? record->count : 1);
   count->setAccessibleName(tr("How many to cut"));
   count->setKeyboardTracking(false);
@@ -333,6 +377,8 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
   connect(count, &QSpinBox::valueChanged, this, [change, title](int n) {
     change(tr("Count of %1").arg(title), [n](PieceRecord& r) { r.count = n; });
   });
+
+  addPieceNumbers(*form, id, record, title);
 
   auto* include = new QCheckBox(tr("Part of the pattern"));
   include->setObjectName(QStringLiteral("pieceIncluded"));
@@ -353,6 +399,15 @@ void SelectionPanel::showPiece(QVBoxLayout& column, const std::string& id) {
               QStringLiteral("%1 %").arg(100 * flat->meanAreaError, 0, 'f', 1), false);
     numberRow(column, tr("Stretch, worst of area"),
               QStringLiteral("%1 %").arg(100 * flat->maxAreaError, 0, 'f', 1), false);
+    auto* row = new QHBoxLayout;
+    for (const char* action : {"darts", "developable"}) {
+      auto* button = new QToolButton;
+      button->setDefaultAction(actions_[QString::fromLatin1(action)]);
+      button->setToolButtonStyle(Qt::ToolButtonTextBesideIcon);
+      row->addWidget(button);
+    }
+    row->addStretch();
+    column.addLayout(row);
   } else if (pattern->failures[index]) {
     auto* why = secondLabel(QString::fromStdString(pattern->failures[index]->message));
     why->setStyleSheet(QStringLiteral("color: %1").arg(studio::palette().trouble.name()));

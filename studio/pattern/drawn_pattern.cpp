@@ -66,18 +66,38 @@ const DrawnRun* runOf(const DrawnPiece& piece, std::uint32_t wire) {
 
 }  // namespace
 
-std::vector<DrawnPiece> drawPattern(const Pattern& pattern) {
+std::vector<DrawnPiece> drawPattern(const Pattern& pattern, PieceColours colours,
+                                    const std::vector<DrawnPiece>* full) {
   std::vector<DrawnPiece> pieces;
   for (std::size_t i = 0; i < pattern.pieces.size(); ++i) {
     const PatternPiece& piece = pattern.pieces[i];
     const Placement& placement = pattern.layout.placements[i];
+    const auto& flat = pattern.flats[pattern.pieceIndex[i]];
+    if (full != nullptr) {
+      const auto same = std::ranges::find_if(*full, [&](const DrawnPiece& known) {
+        return known.id == piece.id && known.flat == flat &&
+               known.placement.angle == placement.angle &&
+               known.placement.offset == placement.offset;
+      });
+      if (same != full->end()) {
+        pieces.push_back(*same);
+        pieces.back().index = i;
+        pieces.back().cutIndex = pattern.pieceIndex[i];
+        continue;
+      }
+    }
     DrawnPiece drawn;
     drawn.id = piece.id;
     drawn.name = QString::fromStdString(piece.name.empty() ? piece.id : piece.name);
+    drawn.index = i;
     drawn.cutIndex = pattern.pieceIndex[i];
     drawn.placement = placement;
     drawn.sew = pathOf(piece.sewLines, placement);
     drawn.cut = pathOf(piece.cutLines, placement);
+    drawn.tint = pieceTint(pattern, drawn.cutIndex, colours);
+    drawn.middle = drawn.cut.boundingRect().center();
+    drawn.flat = flat;
+    drawn.isPreview = full != nullptr;
     for (const OutlineRun& run : piece.runs) {
       const Outline& loop = piece.sewLines[run.loop];
       DrawnRun line{run.curve, {}, kindOf(run.kind), run.wire, run.length};

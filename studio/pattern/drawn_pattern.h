@@ -5,9 +5,11 @@
 #include <QLineF>
 #include <QPainterPath>
 #include <QPolygonF>
+#include <memory>
 #include <string>
 #include <vector>
 
+#include "document/piece_colours.h"
 #include "toile/layout/pattern.h"
 
 namespace toile::studio {
@@ -25,19 +27,26 @@ struct DrawnRun {
 struct DrawnPiece {
   std::string id;
   QString name;
+  std::size_t index = 0;     ///< in Pattern::pieces
   std::size_t cutIndex = 0;  ///< in Pattern::cut.pieces
+  std::shared_ptr<const FlatPiece> flat;
   Placement placement;
   QPainterPath sew, cut;
+  QColor tint;
   std::vector<DrawnRun> runs, inner;
   std::vector<QLineF> notches;
   QLineF grain;
-  QPointF label;
+  QPointF label, middle;
   QString note;
-  QImage strain;       ///< its colours, null where they are not shown
-  QRectF strainPlace;  ///< of the image on the sheet
+  bool isPreview = false;  ///< drawn dashed: its full answer is still to come
+  QImage strain;           ///< its colours, null where they are not shown
+  QRectF strainPlace;      ///< of the image on the sheet
 };
 
-[[nodiscard]] std::vector<DrawnPiece> drawPattern(const Pattern& pattern);
+/// @param full the pieces of the last full pattern if this one is a preview: what is the same there
+/// is taken over, what is not is marked as preview. Null for a full pattern.
+[[nodiscard]] std::vector<DrawnPiece> drawPattern(const Pattern& pattern, PieceColours colours,
+                                                  const std::vector<DrawnPiece>* full);
 
 /// The two runs of a seam that are sewn together.
 struct DrawnMates {

@@ -14,6 +14,12 @@ namespace toile::studio {
 namespace {
 
 constexpr double kLeastForGrain = 40;  // px of a piece
+constexpr double kTint = 0.3;          // how much of its tint a piece shows
+
+QColor mixed(const QColor& a, const QColor& b, double share) {
+  const auto mix = [&](int x, int y) { return static_cast<int>(std::lround(x + share * (y - x))); };
+  return {mix(a.red(), b.red()), mix(a.green(), b.green()), mix(a.blue(), b.blue())};
+}
 
 struct Words {
   Q_DECLARE_TR_FUNCTIONS(PatternView)
@@ -37,6 +43,11 @@ QTransform SheetView::transform() const {
   toWindow.scale(scale, -scale);
   toWindow.translate(-centre.x(), -centre.y());
   return toWindow;
+}
+
+QPointF turnHandle(const DrawnPiece& piece, const SheetView& view) {
+  const QRectF box = piece.cut.boundingRect();
+  return view.toPixel({box.center().x(), box.bottom()}) - QPointF(0, 20);
 }
 
 void PatternPainter::paintGround() {
@@ -108,7 +119,8 @@ void PatternPainter::paintRulers() {
   painter_.setRenderHint(QPainter::Antialiasing, true);
 }
 
-void PatternPainter::paintRun(const DrawnRun& run, const QTransform& toWindow, double width) {
+void PatternPainter::paintRun(const DrawnRun& run, const QTransform& toWindow, double width,
+                              bool isPreview) {
   const QPolygonF line = toWindow.map(run.points);
   const bool picked = session_.selection().isLine(run.curve);
   if (picked || session_.hover().isLine(run.curve)) {
@@ -119,7 +131,7 @@ void PatternPainter::paintRun(const DrawnRun& run, const QTransform& toWindow, d
   }
   const LineLook look = lookOf(run.kind);
   QPen pen(look.onPiece, width, Qt::SolidLine, Qt::FlatCap, Qt::RoundJoin);
-  if (session_.isPatternPreview()) {
+  if (isPreview) {
     pen.setDashPattern({5 / width, 3 / width});
   } else if (look.dots) {
     pen.setCapStyle(Qt::RoundCap);
@@ -169,9 +181,9 @@ void PatternPainter::paintName(const DrawnPiece& piece, const QTransform& toWind
   }
 }
 
-void PatternPainter::paintPiece(const DrawnPiece& piece) {
+void PatternPainter::paintPiece(const DrawnPiece& piece, const QTransform& motion) {
   const Palette& colours = studio::palette();
-  const QTransform toWindow = view_.transform();
+  const QTransform toWindow = motion * view_.transform();
   const QPainterPath cut = toWindow.map(piece.cut), sew = toWindow.map(piece.sew);
   const bool isSelected = session_.selection().isPiece(piece.id);
   if (isSelected || session_.hover().isPiece(piece.id)) {
@@ -179,7 +191,7 @@ void PatternPainter::paintPiece(const DrawnPiece& piece) {
     halo.setAlphaF(isSelected ? 0.5F : 0.25F);
     painter_.strokePath(sew, QPen(halo, 9, Qt::SolidLine, Qt::RoundCap, Qt::RoundJoin));
   }
-  painter_.fillPath(shown_.allowance ? cut : sew, colours.piece);
+  painter_.fillPath(shown_.allowance ? cut : sew, mixed(colours.piece, piece.tint, kTint));
   if (!piece.strain.isNull()) {
     painter_.save();
     painter_.setClipPath(sew, Qt::IntersectClip);
@@ -190,9 +202,9 @@ void PatternPainter::paintPiece(const DrawnPiece& piece) {
   }
   if (shown_.allowance) painter_.strokePath(cut, QPen(colours.cutLine, 0.8));
   if (shown_.features) {
-    for (const DrawnRun& run : piece.inner) paintRun(run, toWindow, 1.6);
+    for (const DrawnRun& run : piece.inner) paintRun(run, toWindow, 1.6, piece.isPreview);
   }
-  for (const DrawnRun& run : piece.runs) paintRun(run, toWindow, 1.8);
+  for (const DrawnRun& run : piece.runs) paintRun(run, toWindow, 1.8, piece.isPreview);
   if (shown_.notches) {
     painter_.setPen(QPen(lookOf(CurveKind::Seam).onPiece, 1.1));
     for (const QLineF& notch : piece.notches) painter_.drawLine(toWindow.map(notch));
@@ -220,13 +232,23 @@ void PatternPainter::paintMates(const std::vector<DrawnMates>& mates) {
                middle.center() - QPointF(40, 18));
 }
 
-void PatternPainter::paintHandles(const DrawnPiece& piece) {
-  if (!shown_.grain) return;
-  painter_.setPen(QPen(studio::palette().selection, 2));
-  painter_.setBrush(Qt::white);
-  for (const QPointF& end : {piece.grain.p1(), piece.grain.p2()}) {
-    painter_.drawEllipse(view_.toPixel(end), 4, 4);
+void PatternPainter::paintHandles(const DrawnPiece& piece, const QTransform& motion) {
+  const QColor blue = studio::palette().selection;
+  const QTransform toWindow = motion * view_.transform();
+  if (shown_.grain) {
+    painter_.setPen(QPen(blue, 2));
+    painter_.setBrush(Qt::white);
+    for (const QPointF& end : {piece.grain.p1(), piece.grain.p2()}) {
+      painter_.drawEllipse(toWindow.map(end), 4, 4);
+    }
   }
+  if (!motion.isIdentity()) return;
+  const QPointF ring = turnHandle(piece, view_);
+  painter_.setPen(QPen(blue, 1));
+  painter_.drawLine(ring + QPointF(0, 6), ring + QPointF(0, 20));
+  painter_.setPen(QPen(blue, 2));
+  painter_.setBrush(Qt::white);
+  painter_.drawEllipse(ring, 6, 6);
 }
 
 void PatternPainter::paintSpots(const std::vector<DrawnPiece>& pieces) {
@@ -239,6 +261,20 @@ void PatternPainter::paintSpots(const std::vector<DrawnPiece>& pieces) {
       const Eigen::Vector2d& flat = pattern->flats[spot.piece]->position[spot.spot.vertex];
       paintMarker(painter_, view_.toPixel(toQt(piece.placement.apply(flat))),
                   QString::number(spot.number), spot.isOverLimit);
+    }
+  }
+}
+
+void PatternPainter::paintGhosts(const std::vector<DrawnPiece>& pieces) {
+  for (const Ghost& ghost : session_.ghosts()) {
+    for (const DrawnPiece& piece : pieces) {
+      if (piece.id != ghost.piece || ghost.flat.empty()) continue;
+      QPolygonF line;
+      for (const auto& p : ghost.flat) line << view_.toPixel(toQt(piece.placement.apply(p)));
+      painter_.setPen(QPen(lookOf(ghost.kind).onPiece, 2));
+      painter_.setBrush(Qt::NoBrush);
+      painter_.drawPolyline(line);
+      paintMarker(painter_, line[line.size() / 2], ghost.label, /*strong=*/true);
     }
   }
 }

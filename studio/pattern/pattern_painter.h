@@ -19,6 +19,7 @@ struct PatternShown {
   bool grain = true;
   bool labels = true;
   bool features = true;
+  friend bool operator==(const PatternShown&, const PatternShown&) = default;
 };
 
 /// Between the sheet (mm, y up) and the pane (px, y down).
@@ -30,6 +31,7 @@ struct SheetView {
   [[nodiscard]] QPointF toSheet(const QPointF& pixel) const;
   [[nodiscard]] QPointF toPixel(const QPointF& sheet) const;
   [[nodiscard]] QTransform transform() const;
+  friend bool operator==(const SheetView&, const SheetView&) = default;
 };
 
 /// Paints the pieces on their ruled ground.
@@ -41,15 +43,17 @@ class PatternPainter {
 
   void paintGround();
   void paintRulers();
-  void paintPiece(const DrawnPiece& piece);
+  /// @param motion of a piece that a hand is moving, in sheet coordinates
+  void paintPiece(const DrawnPiece& piece, const QTransform& motion = {});
   /// The two sides of the selected seam: dotted connectors and both lengths.
   void paintMates(const std::vector<DrawnMates>& mates);
-  /// The ends of the grain, by which it is turned.
-  void paintHandles(const DrawnPiece& piece);
+  /// The ring by which a selected piece is turned, and the ends of its grain.
+  void paintHandles(const DrawnPiece& piece, const QTransform& motion = {});
   void paintSpots(const std::vector<DrawnPiece>& pieces);
+  void paintGhosts(const std::vector<DrawnPiece>& pieces);
 
  private:
-  void paintRun(const DrawnRun& run, const QTransform& toWindow, double width);
+  void paintRun(const DrawnRun& run, const QTransform& toWindow, double width, bool isPreview);
   void paintGrain(const QLineF& grain);
   void paintName(const DrawnPiece& piece, const QTransform& toWindow, const QPainterPath& cut);
 
@@ -58,5 +62,8 @@ class PatternPainter {
   const Session& session_;
   const PatternShown& shown_;
 };
+
+/// Where the ring that turns a piece stands, px.
+[[nodiscard]] QPointF turnHandle(const DrawnPiece& piece, const SheetView& view);
 
 }  // namespace toile::studio

@@ -5,6 +5,7 @@
 #include <QPainter>
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "app/palette.h"
 #include "document/sheet_edits.h"
@@ -49,6 +50,8 @@ PatternView::PatternView(Session& session, QWidget* parent) : QWidget(parent), s
   connect(&session, &Session::patternChanged, this, &PatternView::takePattern);
   connect(&session, &Session::selectionChanged, this, [this] { update(); });
   connect(&session, &Session::hoverChanged, this, [this] { update(); });
+  connect(&session, &Session::ghostsChanged, this, [this] { update(); });
+  connect(&session, &Session::coloursChanged, this, &PatternView::takePattern);
   connect(&session, &Session::strainChanged, this, [this] {
     colour();
     update();
@@ -65,17 +68,45 @@ void PatternView::setShown(const PatternShown& shown) {
   update();
 }
 
+QRect PatternView::pixelsOfPreview() const {
+  QRectF box;
+  for (const DrawnPiece& piece : pieces_) {
+    if (piece.isPreview) box = box.united(view_.transform().mapRect(piece.cut.boundingRect()));
+  }
+  return box.isEmpty() ? QRect() : box.toAlignedRect().adjusted(-14, -14, 14, 14);
+}
+
 void PatternView::takePattern() {
+  const QRect before = pixelsOfPreview();
+  const bool isPreview = session_.isPatternPreview();
   pieces_.clear();
   box_ = {};
   if (const auto pattern = session_.pattern()) {
-    pieces_ = drawPattern(*pattern);
+    pieces_ = drawPattern(*pattern, session_.pieceColours(), isPreview ? &full_ : nullptr);
     for (const DrawnPiece& piece : pieces_) box_ = box_.united(piece.cut.boundingRect());
+    // The sheet begins where its first piece lies; what is shown stays in its place.
+    Eigen::Vector2d moved = Eigen::Vector2d::Zero();
+    if (!pattern->layout.side.empty()) {  // not of a preview, which keeps the places
+      moved = pattern->layout.mapOrigin[0] - origin_;
+      origin_ = pattern->layout.mapOrigin[0];
+    }
+    if (!fitted_) view_.centre += QPointF(moved.x(), moved.y());
+    if (const DrawnPiece* piece = find(putDown_)) {
+      fitted_ = false;
+      view_.centre += piece->middle - view_.toSheet(putDownAt_);
+      if (!session_.isPatternPreview()) putDown_.clear();
+    }
   }
-  colour();
-  if (fitted_) fitAll();
+  if (!isPreview) {
+    colour();
+    full_ = pieces_;
+  }
+  if (fitted_ && !isPreview) fitAll();
   // A preview at once: an update waits for its turn as long as the mouse keeps moving.
-  if (session_.isPatternPreview() && isVisible()) return repaint();
+  if (isPreview && isVisible()) {
+    const bool isFirst = before.isEmpty();
+    return repaint(isFirst ? rect() : before.united(pixelsOfPreview()));
+  }
   update();
 }
 
@@ -120,28 +151,44 @@ void PatternView::paintEvent(QPaintEvent*) {
   QPainter painter(this);
   painter.setRenderHint(QPainter::Antialiasing);
   PatternPainter pattern(painter, view_, session_, shown_);
-  pattern.paintGround();
+  const bool isPreview = session_.isPatternPreview() && gesture_ == Gesture::None;
+  if (isPreview) {
+    paintStill();
+    painter.drawPixmap(0, 0, still_);
+  } else {
+    stillOf_.reset();
+    pattern.paintGround();
+  }
   const DrawnPiece* held = gesture_ == Gesture::None ? nullptr : find(held_);
   for (const DrawnPiece& piece : pieces_) {
-    if (&piece != held) pattern.paintPiece(piece);
+    if (&piece != held && (!isPreview || piece.isPreview)) pattern.paintPiece(piece);
   }
+  const bool isCarried = gesture_ == Gesture::Move || gesture_ == Gesture::Turn;
   if (held != nullptr) {
-    DrawnPiece turned = *held;
-    turned.grain = motion().map(held->grain);
-    pattern.paintPiece(turned);
+    if (isCarried) {
+      pattern.paintPiece(*held, motion());
+    } else {
+      DrawnPiece turned = *held;
+      if (gesture_ == Gesture::Grain) turned.grain = motion().map(held->grain);
+      pattern.paintPiece(turned);
+    }
   }
   if (session_.hasWork() && session_.pattern()) {
     const Selection& selection = session_.selection();
-    if (selection.kind == Selection::Kind::Line) {
+    if (selection.kind == Selection::Kind::Line && !isCarried) {
       pattern.paintMates(matesOf(pieces_, *session_.pattern(), selection.id));
     }
     const DrawnPiece* selected =
         selection.kind == Selection::Kind::Piece ? find(selection.id) : nullptr;
-    if (selected != nullptr && gesture_ != Gesture::Grain) pattern.paintHandles(*selected);
+    if (selected != nullptr && gesture_ != Gesture::Grain) {
+      pattern.paintHandles(*selected, selected == held && isCarried ? motion() : QTransform());
+    }
     pattern.paintSpots(pieces_);
-    if (gesture_ == Gesture::Grain) {
+    pattern.paintGhosts(pieces_);
+    if (gesture_ == Gesture::Turn || gesture_ == Gesture::Grain) {
       paintReadOut(painter,
-                   {{tr("grain turned"), QStringLiteral("%1°").arg(turnOfHand(), 0, 'f', 1)}},
+                   {{gesture_ == Gesture::Turn ? tr("turned") : tr("grain turned"),
+                     QStringLiteral("%1°").arg(turnOfHand(), 0, 'f', 1)}},
                    lastAt_);
     }
   }
@@ -155,6 +202,27 @@ void PatternView::paintEvent(QPaintEvent*) {
     painter.drawText(rect().adjusted(60, 0, -40, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
   }
   pattern.paintRulers();
+}
+
+void PatternView::paintStill() {
+  Still wanted{view_, shown_, session_.selection(), session_.hover(), studio::palette().sheet.rgb(),
+               {}};
+  for (const DrawnPiece& piece : pieces_) {
+    if (!piece.isPreview) wanted.pieces.push_back(piece.id);
+  }
+  if (stillOf_ == wanted) return;
+  stillOf_ = wanted;
+  const QSize size = (QSizeF(this->size()) * devicePixelRatioF()).toSize();
+  if (still_.size() != size) still_ = QPixmap(size);
+  still_.setDevicePixelRatio(devicePixelRatioF());
+  QPainter painter(&still_);
+  painter.setFont(font());
+  painter.setRenderHint(QPainter::Antialiasing);
+  PatternPainter pattern(painter, view_, session_, shown_);
+  pattern.paintGround();
+  for (const DrawnPiece& piece : pieces_) {
+    if (!piece.isPreview) pattern.paintPiece(piece);
+  }
 }
 
 Selection PatternView::pick(const QPointF& pixel) const {
@@ -188,18 +256,23 @@ PatternView::Gesture PatternView::gestureAt(const QPointF& pixel, const DrawnPie
   if (const DrawnPiece* selected =
           selection.kind == Selection::Kind::Piece ? find(selection.id) : nullptr) {
     *piece = selected;
+    if (isNear(pixel, turnHandle(*selected, view_), kHandleCatch)) return Gesture::Turn;
     for (const QPointF& end : {selected->grain.p1(), selected->grain.p2()}) {
       if (shown_.grain && isNear(pixel, view_.toPixel(end), kHandleCatch)) return Gesture::Grain;
     }
   }
-  *piece = nullptr;
-  return Gesture::Pan;
+  // A piece is held anywhere, by its lines too.
+  const auto below = std::ranges::find_if(
+      pieces_, [at = view_.toSheet(pixel)](const auto& each) { return each.cut.contains(at); });
+  *piece = below == pieces_.end() ? nullptr : &*below;
+  return *piece == nullptr ? Gesture::Pan : Gesture::Move;
 }
 
 double PatternView::turnOfHand() const {
   const DrawnPiece* piece = find(held_);
   if (piece == nullptr) return 0;
-  const QPointF middle = view_.toPixel(piece->grain.center());
+  const QPointF middle =
+      view_.toPixel(gesture_ == Gesture::Grain ? piece->grain.center() : piece->middle);
   const double turn = QLineF(middle, pressedAt_).angleTo(QLineF(middle, lastAt_));
   const double degrees = std::remainder(turn, 360.0);
   const double near = std::round(degrees / kTurnStep) * kTurnStep;
@@ -210,7 +283,12 @@ QTransform PatternView::motion() const {
   const DrawnPiece* piece = find(held_);
   QTransform motion;
   if (piece == nullptr || !moved_) return motion;
-  const QPointF middle = piece->grain.center();
+  if (gesture_ == Gesture::Move) {
+    const QPointF step = view_.toSheet(lastAt_) - view_.toSheet(pressedAt_);
+    motion.translate(step.x(), step.y());
+    return motion;
+  }
+  const QPointF middle = gesture_ == Gesture::Grain ? piece->grain.center() : piece->middle;
   motion.translate(middle.x(), middle.y());
   motion.rotate(turnOfHand());
   motion.translate(-middle.x(), -middle.y());
@@ -221,9 +299,31 @@ void PatternView::finishGesture() {
   const DrawnPiece* piece = find(held_);
   const auto& pattern = session_.fullPattern();
   if (piece == nullptr || !pattern || !session_.isPatternCurrent()) return;
-  const auto made =
-      withGrainTurned(session_.document(), *pattern, piece->id, Angle::degrees(turnOfHand()));
-  if (made) session_.commit(tr("Grain of %1").arg(piece->name), *made);
+  const QString name = piece->name;
+  if (gesture_ == Gesture::Grain) {
+    const auto made =
+        withGrainTurned(session_.document(), *pattern, piece->id, Angle::degrees(turnOfHand()));
+    if (made) session_.commit(tr("Grain of %1").arg(name), *made);
+    return;
+  }
+  const QTransform hand = motion();
+  const double turn = gesture_ == Gesture::Turn ? turnOfHand() : 0;
+  Placement wanted = piece->placement;
+  wanted.angle += turn * std::numbers::pi / 180;
+  const QPointF offset = hand.map(toQt(piece->placement.offset));
+  wanted.offset = {offset.x(), offset.y()};
+  putDown_ = piece->id;
+  putDownAt_ = view_.toPixel(hand.map(piece->middle));
+  const std::string id = piece->id;
+  const auto made = withPieceOnSheet(session_.document(), *pattern, piece->index, wanted);
+  if (!made) return;
+  const bool isNew = recordOf(*session_.document().design, id) == nullptr;
+  if (isNew) putDown_ = made->design->layout.back().piece;
+  session_.commit(
+      (gesture_ == Gesture::Turn ? tr("Turn %1 on the sheet") : tr("Move %1 on the sheet"))
+          .arg(name),
+      *made);
+  session_.select(Selection::piece(putDown_));
 }
 
 void PatternView::mousePressEvent(QMouseEvent* event) {
@@ -254,7 +354,7 @@ void PatternView::mouseMoveEvent(QMouseEvent* event) {
 
 void PatternView::mouseReleaseEvent(QMouseEvent* event) {
   lastAt_ = event->position();
-  if (moved_ && gesture_ == Gesture::Grain) {
+  if (moved_ && gesture_ != Gesture::Pan) {
     finishGesture();
   } else if (!moved_ && event->button() == Qt::LeftButton) {
     if (session_.tool().id() == ToolId::Measure) {

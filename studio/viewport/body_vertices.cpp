@@ -70,16 +70,6 @@ Shade shadeAt(const BodyShape& shape, const SurfacePoint& point) {
   return sum;
 }
 
-QColor colourOf(const Pattern& pattern, std::size_t index, BodyColouring colouring) {
-  const Piece& piece = pattern.cut.pieces[index];
-  if (!piece.include || !pattern.flats[index]) return palette().clay;
-  if (colouring == BodyColouring::Piece) return fabricTint(index);
-  const Design& design = *pattern.document.design;
-  const Fabric* fabric = fabricOf(design, recordOf(design, piece.id));
-  const auto number = fabric == nullptr ? 0 : fabric - design.fabrics.data();
-  return fabricTint(static_cast<std::size_t>(number));
-}
-
 }  // namespace
 
 BodyShape makeBodyShape(std::shared_ptr<const ReferenceModel> model) {
@@ -166,12 +156,9 @@ std::vector<BodyVertex> makeBodyVertices(const BodyShape& shape, const Pattern* 
   }
   for (std::size_t i = 0; i < pattern->cut.pieces.size(); ++i) {
     const Piece& piece = pattern->cut.pieces[i];
-    const bool isStrain = paint.colouring == BodyColouring::Strain;
-    const bool strained = isStrain && paint.strains != nullptr && i < paint.strains->size() &&
+    const bool strained = paint.strain && paint.strains != nullptr && i < paint.strains->size() &&
                           (*paint.strains)[i].has_value();
-    const auto colour = isStrain || paint.colouring == BodyColouring::Clay
-                            ? clay
-                            : bytesOf(colourOf(*pattern, i, paint.colouring));
+    const auto colour = paint.strain ? clay : bytesOf(pieceTint(*pattern, i, paint.colours));
     std::vector<float> strain;
     if (strained) strain = strainOfVertices(*piece.mesh, *(*paint.strains)[i], paint.kind);
     std::vector<BodyVertex> ofPiece;

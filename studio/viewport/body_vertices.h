@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "document/piece_colours.h"
 #include "toile/layout/pattern.h"
 
 namespace toile::studio {
@@ -31,15 +32,14 @@ struct BodyVertex {
   std::array<std::uint8_t, 4> colour;
 };
 
-enum class BodyColouring { Clay, Fabric, Piece, Strain };
-
 /// Per vertex of a piece, the mean of the faces around it by their area.
 [[nodiscard]] std::vector<float> strainOfVertices(const Mesh& mesh, const PieceStrain& strain,
                                                   StrainKind kind);
 
 /// How the pieces of a pattern are coloured.
 struct BodyPaint {
-  BodyColouring colouring = BodyColouring::Fabric;
+  PieceColours colours = PieceColours::Fabric;
+  bool strain = false;  ///< in place of the colours
   StrainKind kind = StrainKind::Area;
   /// Of the pattern's pieces; null: none is known.
   const std::vector<std::optional<PieceStrain>>* strains = nullptr;

@@ -33,7 +33,10 @@ class GlCanvas : public QWidget, protected QOpenGLExtraFunctions {
   /// Once, before the first picture, with the context current.
   virtual void initializeGL() = 0;
   /// Draws into the bound framebuffer of that size, in device pixels.
-  virtual void paintGL(const QSize& size) = 0;
+  /// @param part that is to be drawn anew, in device pixels from the top left; the rest still holds
+  ///   the last picture
+  /// @return whether only that was drawn; otherwise all of it was
+  virtual bool paintGL(const QSize& size, const QRect& part) = 0;
   /// Over the picture, in logical pixels.
   virtual void paintOver(QPainter& painter) = 0;
 
@@ -45,7 +48,7 @@ class GlCanvas : public QWidget, protected QOpenGLExtraFunctions {
   void paintEvent(QPaintEvent* event) override;
 
  private:
-  void readPicture();
+  void readPicture(const QRect& part);
 
   QOpenGLContext context_;
   QOffscreenSurface surface_;

@@ -31,17 +31,25 @@ Viewport::Viewport(Session& session, QWidget* parent) : GlCanvas(parent), sessio
 
   connect(&session, &Session::workStarted, this, &Viewport::bodyChanged);
   connect(&session, &Session::bodyChanged, this, &Viewport::bodyChanged);
-  connect(&session, &Session::linesChanged, this, [this] { update(); });
+  const auto refresh = [this] {
+    if (!inHand_) update();
+  };
+  connect(&session, &Session::linesChanged, this, refresh);
   connect(&session, &Session::selectionChanged, this, [this] { update(); });
-  connect(&session, &Session::hoverChanged, this, [this] { update(); });
-  connect(&session, &Session::toolMoved, this, [this] {
-    updateCursor();
-    update();
-  });
+  connect(&session, &Session::hoverChanged, this, refresh);
+  connect(&session, &Session::toolMoved, this, &Viewport::updateCursor);
+  connect(&session, &Session::toolMoved, this, refresh);
   connect(&session, &Session::patternChanged, this, [this] {
-    if (!session_.isPatternPreview()) strainChanged();
+    if (session_.isPatternPreview()) return;
+    placeLabels();
+    strainChanged();
   });
   connect(&session, &Session::strainChanged, this, &Viewport::strainChanged);
+  connect(&session, &Session::ghostsChanged, this, [this] { update(); });
+  connect(&session, &Session::coloursChanged, this, [this] {
+    verticesAreOld_ = true;
+    update();
+  });
   connect(&session, &Session::placeWanted, this, &Viewport::lookAtPlace);
   rest_.setSingleShot(true);
   rest_.setInterval(kRest);
@@ -172,12 +180,6 @@ void Viewport::lookStraightAtSelection() {
       fitted(lookingAlong(camera_, normal), low, high, double(width()) / std::max(1, height())));
 }
 
-void Viewport::setColouring(BodyColouring colouring) {
-  colouring_ = colouring;
-  verticesAreOld_ = true;
-  update();
-}
-
 void Viewport::strainChanged() {
   const StrainLook& look = session_.strainLook();
   look_.strainScale = look.scale;
@@ -195,6 +197,11 @@ void Viewport::lookAtPlace(const Vector3d& place, const Vector3d& normal) {
 
 void Viewport::setEdges(bool edges) {
   look_.edges = edges;
+  update();
+}
+
+void Viewport::setLabels(bool labels) {
+  labels_ = labels;
   update();
 }
 

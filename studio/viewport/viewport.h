@@ -4,6 +4,7 @@
 #include <QElapsedTimer>
 #include <QTimer>
 #include <QVariantAnimation>
+#include <map>
 #include <memory>
 
 #include "app/session.h"
@@ -31,9 +32,8 @@ class Viewport final : public GlCanvas {
   void lookStraightAtSelection();
 
   void setNavigation(NavigationPreset preset) { navigation_ = preset; }
-  /// While strain is not shown.
-  void setColouring(BodyColouring colouring);
   void setEdges(bool edges);
+  void setLabels(bool labels);  ///< names of pieces on the body
   void setSeeThrough(bool seeThrough);
   [[nodiscard]] bool seeThrough() const { return seeThrough_; }
   void setMotion(bool motion) { motion_ = motion; }
@@ -48,7 +48,7 @@ class Viewport final : public GlCanvas {
 
  protected:
   void initializeGL() override;
-  void paintGL(const QSize& size) override;
+  bool paintGL(const QSize& size, const QRect& part) override;
   void paintOver(QPainter& painter) override;
   void resizeEvent(QResizeEvent* event) override;
   void mousePressEvent(QMouseEvent* event) override;
@@ -76,9 +76,18 @@ class Viewport final : public GlCanvas {
   void updateCursor();
   void interacted();
   [[nodiscard]] std::vector<Eigen::Vector3d> selectedPoints() const;
-  [[nodiscard]] std::vector<DrawnLine> drawnLines(const Overlay& overlay) const;
+  /// What must be painted anew after a move of the hand that holds a tool, in logical pixels.
+  [[nodiscard]] QRegion changedPixels();
+  [[nodiscard]] QRect pixelsOf(const std::vector<Eigen::Vector3d>& points) const;
+  [[nodiscard]] QRegion pixelsOf(const Overlay& overlay) const;
+  /// @param within only lines that are seen there, in logical pixels
+  [[nodiscard]] std::vector<DrawnLine> drawnLines(const Overlay& overlay,
+                                                  const QRect& within) const;
   void paintMarkers(QPainter& painter) const;
-  void drawBody(const QSize& size, const Overlay& overlay);
+  void placeLabels();
+  void paintLabels(QPainter& painter) const;
+  /// @return whether it had to be drawn anew
+  bool drawBody(const QSize& size, const Overlay& overlay);
 
   Session& session_;
   Camera camera_;
@@ -92,9 +101,14 @@ class Viewport final : public GlCanvas {
   std::shared_ptr<BodyShape> shape_;
   std::uint64_t shapeNumber_ = 0;
   bool verticesAreOld_ = true;
-  BodyColouring colouring_ = BodyColouring::Fabric;
   BodyLook look_;
   bool seeThrough_ = false;
+  bool labels_ = true;
+  struct BodyLabel {
+    QString text;
+    Eigen::Vector3d place, normal;
+  };
+  std::vector<BodyLabel> bodyLabels_;  ///< of the pieces of the full pattern, the largest first
   /// Ground and body with their depth. While a line is dragged they stay as they are.
   struct BodyPicture {
     Camera camera;
@@ -107,7 +121,19 @@ class Viewport final : public GlCanvas {
   std::unique_ptr<QOpenGLFramebufferObject> bodyPicture_, fineBody_;
   std::optional<BodyPicture> drawnBody_;
   std::uint64_t verticesNumber_ = 0;
-  Overlay overlay_;      ///< of the picture that is painted
+  Overlay overlay_;            ///< of the picture that is painted
+  bool overlayIsNew_ = false;  ///< made for the picture to come
+  /// Lines as they are on the screen: a drag paints only where one of them changes.
+  struct ShownLine {
+    std::uint64_t version = 0;
+    QRect pixels;
+  };
+  std::map<std::string, ShownLine> shownLines_;
+  Camera shownBy_;
+  QSize shownIn_;
+  QPointF shownCursor_;
+  bool shownPreview_ = false;
+  bool inHand_ = false;  ///< a tool that is held takes a move: one picture follows it
   bool coarse_ = false;  ///< while the view moves: without smooth edges of the body
   QTimer rest_;          ///< until it is drawn finely again
 

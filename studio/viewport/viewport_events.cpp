@@ -60,9 +60,16 @@ void Viewport::moved(const PointerEvent& event) {
       break;
   }
   if (button_ != Qt::NoButton && !toolHasPress_) return;
+  inHand_ = toolHasPress_;
   session_.pointer(PointerAction::Move, event);
+  inHand_ = false;
+  if (!toolHasPress_) return;
   // At once: an update waits for its turn as long as the mouse keeps moving.
-  if (toolHasPress_ && session_.isPreview()) repaint();
+  if (session_.isPreview()) {
+    repaint(changedPixels());
+  } else {
+    update();
+  }
 }
 
 void Viewport::released(const PointerEvent& event, const QPoint& globalPlace) {

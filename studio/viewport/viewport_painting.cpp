@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // How the viewport draws: body, lines and what the tool shows over them.
+#include <QFontMetricsF>
 #include <QPainter>
 #include <algorithm>
+#include <utility>
 
 #include "app/palette.h"
 #include "document/strain_spots.h"
@@ -64,12 +66,72 @@ void Viewport::updateVertices() {
   verticesAreOld_ = false;
   ++verticesNumber_;
   if (!shape_) return;
-  const BodyPaint paint{session_.strainLook().on ? BodyColouring::Strain : colouring_,
+  const BodyPaint paint{session_.pieceColours(), session_.strainLook().on,
                         session_.strainLook().kind, session_.strains().get()};
   body_.setVertices(makeBodyVertices(*shape_, session_.fullPattern().get(), paint));
 }
 
-std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
+QRect Viewport::pixelsOf(const std::vector<Vector3d>& points) const {
+  // Half of the widest halo, a control point, and the smooth rim.
+  constexpr int kMargin = 14;
+  const Screen shown = screen();
+  QPolygonF pixels;
+  for (const Vector3d& point : points) {
+    const auto pixel = shown.toPixel(point);
+    if (!pixel) return rect();
+    pixels << QPointF(pixel->x(), pixel->y());
+  }
+  const QRect box = pixels.boundingRect().toAlignedRect();
+  return pixels.isEmpty() ? QRect() : box.adjusted(-kMargin, -kMargin, kMargin, kMargin);
+}
+
+QRegion Viewport::pixelsOf(const Overlay& overlay) const {
+  // A label is at most so large, on either side of its place.
+  constexpr QPoint kLabel(340, 130);
+  QRegion region;
+  for (const OverlayLine& line : overlay.lines) region += pixelsOf(line.points);
+  for (const OverlayPoint& point : overlay.points) region += pixelsOf({point.place});
+  const auto label = [&](const QPoint& at) { region += QRect(at - kLabel, at + kLabel); };
+  if (overlay.snap) label(pixelsOf({overlay.snap->place}).center());
+  for (const OverlayLabel& each : overlay.labels) label(pixelsOf({each.place}).center());
+  if (!overlay.readOut.empty()) label(shownCursor_.toPoint());
+  return region;
+}
+
+QRegion Viewport::changedPixels() {
+  Overlay next = session_.tool().overlay(session_);
+  const bool isWhole = shownBy_ != camera_ || shownIn_ != size() || !drawnBody_ ||
+                       shownPreview_ != session_.isPreview() || next.seeThroughTo ||
+                       overlay_.seeThroughTo || next.showMiddle != overlay_.showMiddle;
+  QRegion region;
+  if (!isWhole) {
+    region += pixelsOf(overlay_);
+    std::map<std::string, ShownLine> now;
+    for (const auto& line : session_.lines().all()) {
+      const auto known = shownLines_.find(line->curve.id);
+      if (known != shownLines_.end() && known->second.version == line->version) {
+        now.insert(*known);
+        continue;
+      }
+      const ShownLine shown{line->version, pixelsOf(line->points)};
+      region += shown.pixels;
+      if (known != shownLines_.end()) region += known->second.pixels;
+      now.emplace(line->curve.id, shown);
+    }
+    for (const auto& [id, shown] : shownLines_) {
+      if (!now.contains(id)) region += shown.pixels;
+    }
+    shownLines_ = std::move(now);
+  }
+  overlay_ = std::move(next);
+  overlayIsNew_ = true;
+  if (lastPointer_) shownCursor_ = {lastPointer_->at.x(), lastPointer_->at.y()};
+  if (isWhole) return rect();
+  region += pixelsOf(overlay_);
+  return region.boundingRect().intersected(rect());
+}
+
+std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay, const QRect& within) const {
   std::vector<DrawnLine> drawn;
   const Palette& colours = studio::palette();
   QColor halo("#1558D6"), hoverHalo = halo;
@@ -77,6 +139,8 @@ std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
   hoverHalo.setAlphaF(0.25F);
 
   for (const auto& line : session_.lines().all()) {
+    const auto shown = shownLines_.find(line->curve.id);
+    if (shown != shownLines_.end() && !shown->second.pixels.intersects(within)) continue;
     DrawnLine ink = inkOf(line->curve.kind);
     ink.points = line->points;
     ink.normals = line->normals;
@@ -127,6 +191,12 @@ std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
       drawn.push_back(std::move(line));
     }
   }
+  for (const Ghost& ghost : session_.ghosts()) {
+    DrawnLine ink = inkOf(ghost.kind);
+    ink.points = ghost.points;
+    ink.normals = ghost.normals;
+    drawn.push_back(std::move(ink));
+  }
   for (const OverlayLine& line : overlay.lines) {
     DrawnLine ink = inkOf(line.kind);
     ink.points = line.points;
@@ -164,14 +234,14 @@ std::vector<DrawnLine> Viewport::drawnLines(const Overlay& overlay) const {
   return drawn;
 }
 
-void Viewport::drawBody(const QSize& size, const Overlay& overlay) {
+bool Viewport::drawBody(const QSize& size, const Overlay& overlay) {
   BodyPicture wanted{camera_, size, verticesNumber_, look_, !coarse_};
   if (overlay.seeThroughTo) {
     wanted.look.seeThrough = SeeThrough{*overlay.seeThroughTo};
     wanted.fine = false;  // another one at the next move
   }
   if (drawnBody_ && drawnBody_->fine) wanted.fine = true;  // a finer one serves as well
-  if (drawnBody_ == wanted) return;
+  if (drawnBody_ == wanted) return false;
   wanted.fine = !coarse_ && !overlay.seeThroughTo;
   drawnBody_ = wanted;
 
@@ -197,6 +267,7 @@ void Viewport::drawBody(const QSize& size, const Overlay& overlay) {
     QOpenGLFramebufferObject::blitFramebuffer(bodyPicture_.get(), fineBody_.get(),
                                               GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
   }
+  return true;
 }
 
 void Viewport::paintMarkers(QPainter& painter) const {
@@ -216,30 +287,112 @@ void Viewport::paintMarkers(QPainter& painter) const {
       paintMarker(painter, *at, QString::number(spot.number), spot.isOverLimit);
     }
   }
+  for (const Ghost& ghost : session_.ghosts()) {
+    if (ghost.points.empty()) continue;
+    const std::size_t middle = ghost.points.size() / 2;
+    const auto at = pixelOf(ghost.points[middle]);
+    if (at && studio::isVisible(session_, ghost.points[middle], ghost.normals[middle])) {
+      paintMarker(painter, *at, ghost.label, /*strong=*/true);
+    }
+  }
 }
 
-void Viewport::paintGL(const QSize& size) {
-  if (verticesAreOld_) updateVertices();
-  overlay_ = session_.hasWork() ? session_.tool().overlay(session_) : Overlay();
-  if (!session_.hasWork()) {
-    body_.drawGround(*this);
-    return;
+void Viewport::placeLabels() {
+  bodyLabels_.clear();
+  const auto& pattern = session_.fullPattern();
+  if (!pattern) return;
+  std::vector<std::pair<double, BodyLabel>> labels;
+  const Mesh& body = *pattern->document.model->mesh;
+  for (const Piece& piece : pattern->cut.pieces) {
+    // A name that was given stands at the anchor, which is deep inside of its piece.
+    const PieceRecord* record = recordOf(*pattern->document.design, piece.id);
+    if (record == nullptr || !piece.include) continue;
+    const auto anchor = resolvePlace(record->anchor, *pattern->document.model, pattern->curves);
+    if (!anchor) continue;
+    BodyLabel label{QString::fromStdString(record->name.empty() ? record->id : record->name),
+                    position(body, *anchor), Vector3d::Zero()};
+    for (const FaceId face : facesOf(body, *anchor)) label.normal += body.normal(face);
+    label.normal.normalize();
+    labels.emplace_back(-static_cast<double>(piece.mesh->faceCount()), std::move(label));
   }
-  drawBody(size, overlay_);
+  std::ranges::stable_sort(labels, {}, [](const auto& entry) { return entry.first; });
+  for (auto& [size, label] : labels) bodyLabels_.push_back(std::move(label));
+}
+
+void Viewport::paintLabels(QPainter& painter) const {
+  if (!labels_ || coarse_ || session_.isPreview()) return;  // out of the way of the hand
+  QFont font = painter.font();
+  font.setPixelSize(11);
+  font.setBold(true);
+  painter.setFont(font);
+  const QFontMetricsF metrics(font);
+  const Screen shown = screen();
+  std::vector<QRectF> taken;
+  for (const BodyLabel& label : bodyLabels_) {
+    const auto pixel = shown.toPixel(label.place);
+    // Names on the turned side and on slopes would be read as those of their neighbours.
+    if (!pixel || label.normal.dot(shown.towardsEye(label.place)) < 0.35) continue;
+    QRectF room = metrics.boundingRect(label.text).adjusted(-5, -1, 5, 1);
+    room.moveCenter({pixel->x(), pixel->y()});
+    if (std::ranges::any_of(taken, [&](const QRectF& other) { return other.intersects(room); })) {
+      continue;
+    }
+    if (!studio::isVisible(session_, label.place, label.normal)) continue;
+    taken.push_back(room);
+    painter.setPen(Qt::NoPen);
+    painter.setBrush(QColor(251, 250, 248, 190));
+    painter.drawRoundedRect(room, 4, 4);
+    painter.setPen(QColor("#1F2124"));
+    painter.drawText(room, Qt::AlignCenter, label.text);
+  }
+}
+
+bool Viewport::paintGL(const QSize& size, const QRect& part) {
+  if (verticesAreOld_) updateVertices();
+  if (!session_.hasWork()) {
+    overlay_ = Overlay();
+    body_.drawGround(*this);
+    return false;
+  }
+  if (!std::exchange(overlayIsNew_, false)) overlay_ = session_.tool().overlay(session_);
+  const QRect whole(QPoint(), size);
+  const bool isPart = !drawBody(size, overlay_) && part != whole;
+  if (!isPart) {
+    shownLines_.clear();
+    for (const auto& line : session_.lines().all()) {
+      shownLines_[line->curve.id] = {line->version, pixelsOf(line->points)};
+    }
+    shownBy_ = camera_;
+    shownIn_ = this->size();
+    shownPreview_ = session_.isPreview();
+    if (lastPointer_) shownCursor_ = {lastPointer_->at.x(), lastPointer_->at.y()};
+  }
   glBindFramebuffer(GL_READ_FRAMEBUFFER, bodyPicture_->handle());
   glBindFramebuffer(GL_DRAW_FRAMEBUFFER, framebuffer());
+  if (isPart) {
+    glEnable(GL_SCISSOR_TEST);
+    glScissor(part.x(), size.height() - part.y() - part.height(), part.width(), part.height());
+  }
   glBlitFramebuffer(0, 0, size.width(), size.height(), 0, 0, size.width(), size.height(),
                     GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT, GL_NEAREST);
   glBindFramebuffer(GL_FRAMEBUFFER, framebuffer());
   const Ball ball = ballOf(*session_.document().model);
-  lines_.draw(*this, screen(), screen().clipFromWorld(ball.centre, ball.radius),
-              devicePixelRatioF(), drawnLines(overlay_), seeThrough_);
+  const double ratio = devicePixelRatioF();
+  const QRect within = isPart ? QRectF(part.x() / ratio, part.y() / ratio, part.width() / ratio,
+                                       part.height() / ratio)
+                                    .toAlignedRect()
+                              : rect();
+  lines_.draw(*this, screen(), screen().clipFromWorld(ball.centre, ball.radius), ratio,
+              drawnLines(overlay_, within), seeThrough_);
+  glDisable(GL_SCISSOR_TEST);
+  return isPart;
 }
 
 void Viewport::paintOver(QPainter& painter) {
   if (!session_.hasWork()) return;
   const std::optional<Vector2d> cursor =
       lastPointer_ ? std::optional(lastPointer_->at) : std::nullopt;
+  paintLabels(painter);
   paintMarkers(painter);
   paintToolOverlay(painter, overlay_, session_, cursor);
 }

@@ -2,12 +2,15 @@
 // A hand on the window, by mouse and key events, for the scripted uses.
 #pragma once
 
+#include <QAbstractButton>
 #include <QApplication>
 #include <QLineEdit>
+#include <QMessageBox>
 #include <QMouseEvent>
 #include <QTimer>
 #include <cstdio>
 #include <cstdlib>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -29,6 +32,63 @@ inline void wait(int ms) {
   QEventLoop loop;
   QTimer::singleShot(ms, &loop, &QEventLoop::quit);
   loop.exec();
+}
+
+/// Waits for a dialog of that kind and gives it to `act`, which must close it.
+template <class Dialog>
+void whenAsked(const std::function<void(Dialog&)>& act) {
+  auto* timer = new QTimer(qApp);
+  QObject::connect(timer, &QTimer::timeout, qApp, [timer, act] {
+    auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
+    if (dialog == nullptr) return;
+    timer->stop();
+    timer->deleteLater();
+    act(*dialog);
+  });
+  timer->start(50);
+}
+
+/// An empty body; changes to the work before it are thrown away.
+inline void beginAnew(MainWindow& window) {
+  QTimer discard;
+  QObject::connect(&discard, &QTimer::timeout, &discard, [] {
+    auto* box = qobject_cast<QMessageBox*>(QApplication::activeModalWidget());
+    if (box == nullptr) return;
+    for (QAbstractButton* button : box->buttons()) {
+      if (box->buttonRole(button) == QMessageBox::DestructiveRole) return button->click();
+    }
+  });
+  discard.start(20);
+  window.newWork();
+}
+
+/// A drag with the left button over any widget.
+inline void dragOver(QWidget& widget, const QPointF& from, const QPointF& to) {
+  const auto send = [&](QEvent::Type type, const QPointF& at, Qt::MouseButton button, bool held) {
+    QMouseEvent event(type, at, widget.mapToGlobal(at), button,
+                      held ? Qt::LeftButton : Qt::NoButton, Qt::NoModifier);
+    QApplication::sendEvent(&widget, &event);
+    QApplication::processEvents();
+  };
+  send(QEvent::MouseMove, from, Qt::NoButton, false);
+  send(QEvent::MouseButtonPress, from, Qt::LeftButton, true);
+  for (int step = 1; step <= 8; ++step) {
+    send(QEvent::MouseMove, from + step / 8.0 * (to - from), Qt::NoButton, true);
+  }
+  send(QEvent::MouseButtonRelease, to, Qt::LeftButton, false);
+}
+
+/// Types into a field, as after a click into it, and takes it by Enter.
+inline void type(QLineEdit& field, const QString& text) {
+  field.setFocus();
+  field.selectAll();
+  for (const QChar letter : text) {
+    QKeyEvent event(QEvent::KeyPress, 0, Qt::NoModifier, QString(letter));
+    QApplication::sendEvent(&field, &event);
+  }
+  QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
+  QApplication::sendEvent(&field, &enter);
+  QApplication::processEvents();
 }
 
 class Hand {
@@ -91,17 +151,9 @@ class Hand {
   void namePiece(const QString& name) {
     auto* field = window_.findChild<QLineEdit*>(QStringLiteral("pieceName"));
     require(field != nullptr, "a selected piece shows its name");
-    field->setFocus();
-    field->selectAll();
-    for (const QChar letter : name) {
-      QKeyEvent event(QEvent::KeyPress, 0, Qt::NoModifier, QString(letter));
-      QApplication::sendEvent(field, &event);
-    }
-    QKeyEvent enter(QEvent::KeyPress, Qt::Key_Return, Qt::NoModifier);
-    QApplication::sendEvent(field, &enter);
-    QApplication::processEvents();
+    type(*field, name);
   }
-  std::string folder;
+  inline static std::string folder;  ///< for pictures; none without
 
  private:
   MainWindow& window_;

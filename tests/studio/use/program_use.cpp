@@ -12,7 +12,6 @@
 #include <QRadioButton>
 #include <QTemporaryDir>
 #include <QTreeWidget>
-#include <functional>
 
 #include "app/keys_dialog.h"
 #include "app/palette.h"
@@ -38,20 +37,6 @@ void picture(QWidget& widget, const char* name) {
   if (folderOfPictures.isEmpty()) return;
   wait(300);
   widget.grab().save(folderOfPictures + '/' + QString::fromLatin1(name) + QStringLiteral(".png"));
-}
-
-/// Waits for a dialog of that kind and gives it to `act`, which must close it.
-template <class Dialog>
-void whenAsked(const std::function<void(Dialog&)>& act) {
-  auto* timer = new QTimer(qApp);
-  QObject::connect(timer, &QTimer::timeout, qApp, [timer, act] {
-    auto* dialog = qobject_cast<Dialog*>(QApplication::activeModalWidget());
-    if (dialog == nullptr) return;
-    timer->stop();
-    timer->deleteLater();
-    act(*dialog);
-  });
-  timer->start(50);
 }
 
 /// What the program says when it opens a file that it cannot take.

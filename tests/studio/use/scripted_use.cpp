@@ -40,7 +40,7 @@ QStringList filesIn(const QString& folder) {
 
 int drawATop(MainWindow& window, const QString& toile, const std::string& pictures) {
   Hand hand(window);
-  hand.folder = pictures;
+  Hand::folder = pictures;
   Session& session = hand.session();
   window.viewport().setMotion(false);
   QObject::connect(&session, &Session::told, [](const QString& sentence) {
