@@ -473,7 +473,7 @@ RoughPlaces flattenRoughly(const ReferenceModel& model, const std::vector<MapCha
 /// The proposed charts; those that no flat map of them could show are parted further.
 GuidingMap mapOf(const ReferenceModel& model, detail::FaceRegions regions) {
   // Of a chart: hands are not worth another one.
-  constexpr double kMostTurned = 0.03;
+  constexpr double kMostTurned = 0.06;
   constexpr double kMostOverlap = 0.1;
   constexpr int kMostPartings = 6;
   const FaceData<FaceId> mirrored = detail::mirroredFaces(model);

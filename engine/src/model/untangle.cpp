@@ -19,7 +19,7 @@ using Eigen::Matrix2d;
 using Eigen::Vector2d;
 using Eigen::VectorXd;
 
-constexpr int kMostRounds = 15;  // of smaller and smaller eps
+constexpr int kMostRounds = 10;  // of smaller and smaller eps
 constexpr int kMostSteps = 60;   // of a round
 constexpr double kLeastEps = 1e-3;
 constexpr std::size_t kMemory = 8;
@@ -36,8 +36,7 @@ RestTriangle restOf(const ConformalPatch& patch, std::size_t t) {
   const Eigen::Vector3d e2 = patch.positions[c[2]] - patch.positions[c[0]];
   const double base = std::max(e1.norm(), 1e-9);
   Matrix2d edges;
-  edges << base, e2.dot(e1) / base, 0,
-      std::max(e1.cross(e2).norm() / base, kLeastHeight * base);
+  edges << base, e2.dot(e1) / base, 0, std::max(e1.cross(e2).norm() / base, kLeastHeight * base);
   return {edges.inverse(), 0.5 * edges.determinant()};
 }
 
@@ -160,8 +159,7 @@ class Tangle {
         parts[i] = memory[i].share * memory[i].step.dot(way);
         way -= parts[i] * memory[i].slope;
       }
-      if (!memory.empty())
-        way /= memory.back().share * memory.back().slope.squaredNorm();
+      if (!memory.empty()) way /= memory.back().share * memory.back().slope.squaredNorm();
       for (std::size_t i = 0; i < memory.size(); ++i)
         way += (parts[i] - memory[i].share * memory[i].slope.dot(way)) * memory[i].step;
       const double descent = gradient.dot(way);
@@ -220,7 +218,7 @@ std::vector<char> grownByARing(const ConformalPatch& patch, const std::vector<ch
 void untangle(const ConformalPatch& patch, std::vector<Vector2d>& places) {
   std::vector<RestTriangle> rest;
   for (std::size_t t = 0; t < patch.triangles.size(); ++t) rest.push_back(restOf(patch, t));
-  for (const int rings : {8, 20, -1}) {
+  for (const int rings : {8, 20}) {
     std::vector<char> region(patch.triangles.size(), 0);
     bool isTangled = false;
     for (std::size_t t = 0; t < region.size(); ++t) {
@@ -233,7 +231,6 @@ void untangle(const ConformalPatch& patch, std::vector<Vector2d>& places) {
     }
     if (!isTangled) return;
     for (int ring = 0; ring < rings; ++ring) region = grownByARing(patch, region);
-    if (rings < 0) region.assign(region.size(), 1);
     if (Tangle(patch, rest, places, region).solve()) return;
   }
 }
