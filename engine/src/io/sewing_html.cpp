@@ -36,8 +36,8 @@ th.n,td.n{text-align:right;white-space:nowrap;padding:.28rem 0 .28rem .9rem}
 
 class Writer {
  public:
-  explicit Writer(const Pattern& pattern)
-      : pattern_(pattern), sheet_(sewingSheet(pattern)), out_(std::back_inserter(text_)) {}
+  Writer(const Pattern& pattern, const SewingSheet& sheet)
+      : pattern_(pattern), sheet_(sheet), out_(std::back_inserter(text_)) {}
 
   std::string write(std::string_view cover) {
     fmt::format_to(out_,
@@ -189,15 +189,20 @@ class Writer {
   }
 
   const Pattern& pattern_;
-  SewingSheet sheet_;
+  const SewingSheet& sheet_;
   std::string text_;
   std::back_insert_iterator<std::string> out_;
 };
 
 }  // namespace
 
+std::string writeSewingHtml(const Pattern& pattern, const SewingSheet& sheet,
+                            std::string_view coverPng) {
+  return Writer(pattern, sheet).write(coverPng);
+}
+
 std::string writeSewingHtml(const Pattern& pattern, std::string_view coverPng) {
-  return Writer(pattern).write(coverPng);
+  return writeSewingHtml(pattern, sewingSheet(pattern), coverPng);
 }
 
 }  // namespace toile

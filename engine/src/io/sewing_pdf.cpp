@@ -32,7 +32,7 @@ struct Column {
 
 class Writer {
  public:
-  explicit Writer(const Pattern& pattern) : pattern_(pattern), sheet_(sewingSheet(pattern)) {}
+  Writer(const Pattern& pattern, const SewingSheet& sheet) : pattern_(pattern), sheet_(sheet) {}
 
   Result<std::string> write(std::string_view cover) {
     canvas_.setTitle("Sewing: " + sheet_.title);
@@ -208,7 +208,7 @@ class Writer {
   }
 
   const Pattern& pattern_;
-  SewingSheet sheet_;
+  const SewingSheet& sheet_;
   PdfCanvas canvas_;
   double y_ = 0;
   int page_ = 0;
@@ -216,8 +216,13 @@ class Writer {
 
 }  // namespace
 
+Result<std::string> writeSewingPdf(const Pattern& pattern, const SewingSheet& sheet,
+                                   std::string_view coverPng) {
+  return Writer(pattern, sheet).write(coverPng);
+}
+
 Result<std::string> writeSewingPdf(const Pattern& pattern, std::string_view coverPng) {
-  return Writer(pattern).write(coverPng);
+  return writeSewingPdf(pattern, sewingSheet(pattern), coverPng);
 }
 
 }  // namespace toile

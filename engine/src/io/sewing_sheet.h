@@ -3,6 +3,7 @@
 
 #include <map>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "io/body_view.h"
@@ -28,6 +29,12 @@ struct SewingSheet {
   std::string inputs;  ///< hash
 };
 [[nodiscard]] SewingSheet sewingSheet(const Pattern& pattern);
+
+/// Both forms of a sheet that is made once.
+[[nodiscard]] std::string writeSewingHtml(const Pattern& pattern, const SewingSheet& sheet,
+                                          std::string_view coverPng);
+[[nodiscard]] Result<std::string> writeSewingPdf(const Pattern& pattern, const SewingSheet& sheet,
+                                                 std::string_view coverPng);
 
 /// What to do in a step, for people: "close the dart", ...
 [[nodiscard]] const char* describe(SewStep::Kind kind);

@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "io/file_set.h"
+#include "io/sewing_sheet.h"
 #include "toile/core/parallel.h"
 #include "toile/io/dxf.h"
 #include "toile/io/pdf.h"
@@ -101,14 +102,15 @@ Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesyste
   }
 
   // The sewing sheet shows the picture.
+  const SewingSheet sewing = sewingSheet(told);
   const std::string cover = contents.front() ? *contents.front() : std::string();
   std::string sewingPage;
   Result<std::string> sewingPrint = std::string();
   parallelFor(2, [&](std::size_t i) {
     if (i == 0) {
-      sewingPrint = writeSewingPdf(told, cover);
+      sewingPrint = writeSewingPdf(told, sewing, cover);
     } else {
-      sewingPage = writeSewingHtml(told, cover);
+      sewingPage = writeSewingHtml(told, sewing, cover);
     }
   });
   if (!sewingPrint) return sewingPrint.error().during("sewing.pdf");
