@@ -136,14 +136,19 @@ int run(Arguments& arguments, const Session& session) {
   if (!markers) return fail(markers.error());
 
   progress.step("write the files");
-  if (const Result<void> made = makeFolder(arguments.folder); !made) return fail(made.error());
+  // Nothing is written before all of it is there.
+  std::vector<Files> files;
   for (const Marker& marker : *markers) {
-    for (const auto& [name, content] : filesOf(marker, arguments)) {
+    files.push_back(filesOf(marker, arguments));
+    for (const auto& [name, content] : files.back())
       if (!content) return fail(content.error().during(name));
+    if (const int told = report(marker.findings, session); told != kDone) status = told;
+  }
+  if (const Result<void> made = makeFolder(arguments.folder); !made) return fail(made.error());
+  for (const Files& ofMarker : files) {
+    for (const auto& [name, content] : ofMarker)
       if (const Result<void> done = writeFileWhole(arguments.folder / name, *content); !done)
         return fail(done.error());
-    }
-    if (const int told = report(marker.findings, session); told != kDone) status = told;
   }
   const std::string figures = writeMarkersJson(*markers);
   if (const Result<void> done = writeFileWhole(arguments.folder / "markers.json", figures); !done)

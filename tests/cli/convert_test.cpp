@@ -59,6 +59,14 @@ TEST_F(ConvertCommand, RefusesAFileThatIsCutOff) {
   EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out.svg"));
 }
 
+TEST_F(ConvertCommand, RefusesAFileOf100Megabytes) {
+  std::filesystem::resize_file(in_, 100'000'000);
+  const ProgramResult result = run({"-o", (folder_.path() / "out.svg").string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("MB"));
+  EXPECT_FALSE(std::filesystem::exists(folder_.path() / "out.svg"));
+}
+
 TEST(CheckSewingCommand, SaysWhetherMatesFit) {
   TemporaryFolder folder;
   const std::string out = folder.path() / "out";

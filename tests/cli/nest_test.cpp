@@ -57,6 +57,18 @@ TEST(Nest, NamesThePieceThatIsWiderThanTheRoll) {
   EXPECT_THAT(result.err, HasSubstr("wide across the grain and the material has 50 mm"));
 }
 
+TEST(Nest, RefusesNegativeSizes) {
+  const TemporaryFolder folder;
+  for (const char* option : {"--width", "--length", "--gap", "--margin", "--overlap"}) {
+    const ProgramResult result =
+        nest({kSleeve, std::string(option) + "=-5mm", "--effort", "0", "-o", folder.path() / "a"});
+    EXPECT_NE(result.status, 0) << option;
+    EXPECT_NE(result.err, "") << option;
+    EXPECT_FALSE(std::filesystem::exists(folder.path() / "a")) << option;
+  }
+  EXPECT_EQ(nest({kSleeve, "--copies", "-1"}).status, 2);
+}
+
 TEST(Nest, RefusesAWrongCommandLine) {
   EXPECT_EQ(nest({kSleeve, "--turns", "sideways"}).status, 2);
   EXPECT_EQ(nest({kSleeve, "--effort", "99"}).status, 2);
