@@ -23,6 +23,7 @@ struct UnfoldArguments {
   std::string objective = "least-strain";
   std::string weights = "length";
   std::string symmetry = "auto";
+  std::string contact = "on";
   UnfoldOptions options;
   std::optional<Ratio> autoDart, elasticRange;
 };
@@ -106,6 +107,7 @@ int runUnfold(const UnfoldArguments& arguments, const Session& session) {
   if (arguments.objective == "wirewarping") options.objective = UnfoldObjective::WireWarping;
   if (arguments.weights == "unit") options.weights = WireWeights::Unit;
   options.keepSymmetry = arguments.symmetry == "auto";
+  options.keepApart = arguments.contact == "on";
   if (arguments.autoDart) return runAutoDart(arguments, options, *file, session);
   Result<Piece> piece =
       makePiece(arguments.in.stem().string(), file->mesh, file->chains, file->targets);
@@ -189,6 +191,11 @@ void addUnfold(CLI::App& app, Session& session) {
       ->add_option("--symmetry", arguments->symmetry,
                    "auto: a nearly symmetric piece comes out symmetric (default); off")
       ->check(CLI::IsMember({"auto", "off"}))
+      ->type_name("NAME");
+  command
+      ->add_option("--contact", arguments->contact,
+                   "on: edges of a piece that would lie on itself are kept apart (default); off")
+      ->check(CLI::IsMember({"on", "off"}))
       ->type_name("NAME");
   command
       ->add_option("--area-weight", arguments->options.areaWeight,

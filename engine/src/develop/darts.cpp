@@ -163,11 +163,12 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
                           const DartOptions& options, int maxDarts, Progress* progress) {
   DartOptions wanted = options;
   wanted.limit = limit;
+  wanted.unfold.keepApart = false;  // a piece that lies on itself shall get a dart
   Result<Piece> piece = makePiece(name, patch.mesh, patch.chains, patch.targets);
   if (!piece) return piece.error();
   Result<ForcedError> forced = measureForcedError(*piece);
   if (!forced) return forced.error();
-  Result<FlatPiece> flat = unfold(*piece, options.unfold, progress);
+  Result<FlatPiece> flat = unfold(*piece, wanted.unfold, progress);
   if (!flat) return flat.error();
   AutoDart made{std::move(patch), *std::move(piece), nullptr, {}, *forced, flat->meanAreaError, {}};
 
@@ -211,7 +212,7 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
     if (!with) return with.error();
     Result<Piece> opened = makePiece(name, with->mesh, with->chains, with->targets);
     if (!opened) return opened.error();
-    Result<FlatPiece> after = unfold(*opened, options.unfold, progress);
+    Result<FlatPiece> after = unfold(*opened, wanted.unfold, progress);
     if (!after) return after.error();
     made.findings.push_back(
         {"auto-dart",
@@ -222,6 +223,10 @@ Result<AutoDart> autoDart(Patch patch, const std::string& name, Ratio limit,
     made.patch = *std::move(with);
     made.piece = *std::move(opened);
     flat = std::move(after);
+  }
+  if (flat->check.crossings > 0 && options.unfold.keepApart) {
+    flat = unfold(made.piece, options.unfold, progress);
+    if (!flat) return flat.error();
   }
   made.flat = std::make_shared<const FlatPiece>(*std::move(flat));
   return made;

@@ -20,6 +20,7 @@ Result<void> putInDarts(Pattern& pattern, Symmetries& symmetries, const MakeOpti
                         PatternCache& cache, Progress* progress) {
   MakeOptions plain = options;
   plain.autoDevelop = std::nullopt;
+  plain.unfold.keepApart = false;  // a piece that lies on itself shall get a dart
   for (int round = 0; round < kMaxAutoDartRounds; ++round) {
     const std::size_t told = pattern.findings.size();
     stages::unfoldPieces(pattern, symmetries, plain, cache, progress);

@@ -236,6 +236,7 @@ ContentHash cacheKey(const Pattern& pattern, std::size_t index, const PieceSymme
       .add(options.wireStiffness)
       .add(options.maxSteps)
       .add(options.keepSymmetry)
+      .add(options.keepApart)
       .add(options.cloth.has_value())
       .add(develop.has_value());
   if (options.cloth) {

@@ -3,8 +3,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numbers>
 
+#include "unfold/edge_grid.h"
 #include "unfold/orientation.h"
 #include "unfold/wire_bending.h"
 
@@ -14,11 +16,15 @@ namespace {
 /// Wire nodes turned by less than this against straight are no corners.
 constexpr double kCornerTurn = 35 * std::numbers::pi / 180;
 
+double cross(const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  return a.x() * b.y() - a.y() * b.x();
+}
+
 double distanceToLine(const Eigen::Vector2d& p, const Eigen::Vector2d& a,
                       const Eigen::Vector2d& b) {
   const Eigen::Vector2d along = b - a;
   const Eigen::Vector2d to = p - a;
-  return std::abs(along.x() * to.y() - along.y() * to.x()) / along.norm();
+  return std::abs(cross(along, to)) / along.norm();
 }
 
 bool crosses(const Problem& problem, const Plane& q, std::uint32_t first, std::uint32_t second) {
@@ -33,55 +39,97 @@ bool crosses(const Problem& problem, const Plane& q, std::uint32_t first, std::u
   return depth > kContactDepthMm;
 }
 
+/// A boundary vertex and the ways that leave it along the boundary.
+struct Bend {
+  Eigen::Vector2d at, before, after;
+};
+
+/// Whether the boundary passes through an edge at one of its own vertices, which lies on the edge
+/// within the contact depth: the ways to both sides of it end on different sides of the edge.
+bool passesThrough(const Bend& bend, const Eigen::Vector2d& a, const Eigen::Vector2d& b) {
+  const double length = (b - a).norm();
+  const Eigen::Vector2d along = (b - a) / length;
+  const double foot = along.dot(bend.at - a);
+  const double height = cross(along, bend.at - a);
+  if (std::abs(height) > kContactDepthMm || foot < kContactDepthMm ||
+      foot > length - kContactDepthMm) {
+    return false;
+  }
+  const auto depth = [&](const Eigen::Vector2d& way) {  // as far as it stays beside the edge
+    const double ahead = along.dot(way);
+    const double room = ahead > 0 ? length - foot : foot;
+    const double share = std::abs(ahead) > room ? room / std::abs(ahead) : 1;
+    return height + share * cross(along, way);
+  };
+  const double before = depth(bend.before), after = depth(bend.after);
+  return std::min(std::abs(before), std::abs(after)) > kContactDepthMm && before * after < 0;
+}
+
+/// Whether two parts of the boundary pass through each other at vertices that coincide within the
+/// contact depth: their ways alternate around the place.
+bool passesThrough(const Bend& bend, const Bend& other) {
+  if ((bend.at - other.at).norm() > 2 * kContactDepthMm) return false;
+  const auto isClear = [](const Eigen::Vector2d& u, const Eigen::Vector2d& v) {
+    return u.dot(v) < 0 ||
+           std::abs(cross(u, v)) > 2 * kContactDepthMm * std::max(u.norm(), v.norm());
+  };
+  for (const Eigen::Vector2d& u : {bend.before, bend.after}) {
+    if (!isClear(u, other.before) || !isClear(u, other.after)) return false;
+  }
+  const auto angle = [&](const Eigen::Vector2d& u) {
+    const double from = std::atan2(cross(other.before, u), other.before.dot(u));
+    return from < 0 ? from + 2 * std::numbers::pi : from;
+  };
+  const double turn = angle(other.after);
+  return (angle(bend.before) < turn) != (angle(bend.after) < turn);
+}
+
+/// Pairs of boundary edges that pass through each other at a vertex.
+void addCrossingsAtVertices(const Problem& problem, const Plane& q,
+                            std::vector<std::pair<std::uint32_t, std::uint32_t>>& found) {
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::uint32_t> wireEdge;
+  for (std::uint32_t i = 0; i < problem.wireEdges.size(); ++i) {
+    wireEdge[std::minmax(problem.wireEdges[i].a, problem.wireEdges[i].b)] = i;
+  }
+  struct Step {
+    std::uint32_t from = 0, to = 0;
+    Bend bend;  ///< at `from`
+  };
+  std::vector<Step> steps;
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> segments;
+  for (const auto& loop : problem.loops) {
+    for (std::size_t i = 0; i < loop.size(); ++i) {
+      const std::uint32_t before = loop[(i + loop.size() - 1) % loop.size()];
+      const std::uint32_t to = loop[(i + 1) % loop.size()];
+      const Eigen::Vector2d here = at(q, loop[i]);
+      steps.push_back({loop[i], to, {here, at(q, before) - here, at(q, to) - here}});
+      segments.emplace_back(here, at(q, to));
+    }
+  }
+  const auto passes = [&](const Step& point, const Step& edge) {
+    if (point.from == edge.from || point.from == edge.to) return false;
+    return passesThrough(point.bend, edge.bend.at, at(q, edge.to)) ||
+           (point.from < edge.from && passesThrough(point.bend, edge.bend));
+  };
+  for (const auto& [i, j] : nearSegments(segments, 2 * kContactDepthMm)) {
+    if (!passes(steps[i], steps[j]) && !passes(steps[j], steps[i])) continue;
+    found.push_back(std::minmax(wireEdge.at(std::minmax(steps[i].from, steps[i].to)),
+                                wireEdge.at(std::minmax(steps[j].from, steps[j].to))));
+  }
+}
+
 }  // namespace
 
 std::vector<std::pair<std::uint32_t, std::uint32_t>> findCrossings(const Problem& problem,
                                                                    const Plane& q) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> found;
-  const std::size_t count = problem.wireEdges.size();
-  Eigen::Vector2d low = at(q, problem.wireEdges.front().a);
-  Eigen::Vector2d high = low;
-  double longest = 0;
-  for (const WireEdge& edge : problem.wireEdges) {
-    const Eigen::Vector2d a = at(q, edge.a), b = at(q, edge.b);
-    low = low.cwiseMin(a).cwiseMin(b);
-    high = high.cwiseMax(a).cwiseMax(b);
-    longest = std::max(longest, (a - b).norm());
-  }
-  // Cells of about an edge; no more of them than a few per edge, however long the piece is.
-  const double extent = (high - low).maxCoeff();
-  const double cell = std::max(
-      {extent / (1.0 + 4.0 * std::sqrt(static_cast<double>(count))), 0.25 * longest, 1e-300});
-  const auto cellsAlong = [&](int axis) {
-    return static_cast<std::int64_t>((high[axis] - low[axis]) / cell) + 1;
-  };
-  const std::int64_t columns = cellsAlong(0);
-  std::vector<std::pair<std::int64_t, std::uint32_t>> entries;  // cell, edge
-  for (std::uint32_t i = 0; i < count; ++i) {
-    const Eigen::Vector2d a = at(q, problem.wireEdges[i].a), b = at(q, problem.wireEdges[i].b);
-    const Eigen::Vector2d from = (a.cwiseMin(b) - low) / cell;
-    const Eigen::Vector2d to = (a.cwiseMax(b) - low) / cell;
-    for (auto y = static_cast<std::int64_t>(from.y()); y <= static_cast<std::int64_t>(to.y());
-         ++y) {
-      for (auto x = static_cast<std::int64_t>(from.x()); x <= static_cast<std::int64_t>(to.x());
-           ++x) {
-        entries.emplace_back(y * columns + x, i);
-      }
-    }
-  }
-  std::sort(entries.begin(), entries.end());
-  for (std::size_t begin = 0; begin < entries.size();) {
-    std::size_t end = begin;
-    while (end < entries.size() && entries[end].first == entries[begin].first) ++end;
-    for (std::size_t i = begin; i < end; ++i) {
-      for (std::size_t j = i + 1; j < end; ++j) {
-        if (crosses(problem, q, entries[i].second, entries[j].second)) {
-          found.emplace_back(entries[i].second, entries[j].second);
-        }
-      }
-    }
-    begin = end;
-  }
+  std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> segments;
+  segments.reserve(problem.wireEdges.size());
+  for (const WireEdge& edge : problem.wireEdges)
+    segments.emplace_back(at(q, edge.a), at(q, edge.b));
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> found = nearSegments(segments, 0);
+  std::erase_if(found,
+                [&](const auto& pair) { return !crosses(problem, q, pair.first, pair.second); });
+  addCrossingsAtVertices(problem, q, found);
   std::sort(found.begin(), found.end());
   found.erase(std::unique(found.begin(), found.end()), found.end());
   return found;

@@ -13,7 +13,8 @@ namespace toile::unfolding {
 inline constexpr double kContactDepthMm = 1e-3;
 
 /// Pairs of wire edges (indices in Problem::wireEdges) that cross without sharing a node,
-/// ascending. Exact predicates; found by a grid, so the cost is about linear.
+/// ascending; edges of the boundary that pass through each other at a vertex too. Exact predicates;
+/// found by a grid, so the cost is about linear.
 [[nodiscard]] std::vector<std::pair<std::uint32_t, std::uint32_t>> findCrossings(
     const Problem& problem, const Plane& q);
 

@@ -66,6 +66,15 @@ std::vector<std::string> overBracedCurves(const Piece& piece, const Problem& pro
   return curves;
 }
 
+/// Of each part that is covered twice a face of either layer, the largest part first.
+void nameOverlaps(const std::vector<Overlap>& overlaps, std::vector<Element>& where) {
+  for (const Overlap& overlap : overlaps) {
+    for (const std::vector<FaceId>& layer : overlap.layers) {
+      if (where.size() < kMaxNamed) where.push_back(Element::face(layer[layer.size() / 2]));
+    }
+  }
+}
+
 /// Where the plane is covered twice, for people.
 std::string describe(const std::vector<Overlap>& overlaps) {
   if (overlaps.empty()) return "nothing is covered twice but wires cross inside";
@@ -122,6 +131,16 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
     const std::uint32_t wire = problem.wireEdges[wireEdge].wire;
     return wire == WireEdge::kNoWire ? std::string("border") : piece.wires[wire].curve;
   };
+  if (flat.check.crossings == 0 && !flat.overlaps.empty()) {
+    Finding finding{"kept-apart",
+                    fmt::format("the piece would lie on itself in the plane ({}); its edges were "
+                                "kept apart, with {:.1f} % mean area error: a dart or a cut there "
+                                "needs less",
+                                describe(flat.overlaps), 100 * flat.meanAreaError),
+                    {}};
+    nameOverlaps(flat.overlaps, finding.where);
+    findings.push_back(std::move(finding));
+  }
   if (flat.check.crossings > 0) {
     Finding finding{"crossings",
                     fmt::format("{} pairs of wire edges cross in the plane: the piece overlaps "
@@ -137,14 +156,7 @@ std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,
         }
       }
     }
-    // Of each part that is covered twice a face of either layer, the largest part first.
-    for (const Overlap& overlap : flat.overlaps) {
-      for (const std::vector<FaceId>& layer : overlap.layers) {
-        if (finding.where.size() < kMaxNamed) {
-          finding.where.push_back(Element::face(layer[layer.size() / 2]));
-        }
-      }
-    }
+    nameOverlaps(flat.overlaps, finding.where);
     findings.push_back(std::move(finding));
   }
   if (solution.meanEnergy > kHighStrain) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "unfold/check.h"
+#include "unfold/keep_apart.h"
 #include "unfold/start.h"
 #include "unfold/symmetry.h"
 
@@ -25,9 +26,11 @@ constexpr int kPreviewSteps = 1;
 
 }  // namespace
 
-BlockPattern couplingsOf(const Problem& problem, MirrorTies ties) {
-  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs;
-  pairs.reserve(3 * problem.triangles.size() + problem.corners.size() + problem.wireEdges.size());
+BlockPattern couplingsOf(const Problem& problem, MirrorTies ties,
+                         const std::vector<std::pair<std::uint32_t, std::uint32_t>>& more) {
+  std::vector<std::pair<std::uint32_t, std::uint32_t>> pairs = more;
+  pairs.reserve(more.size() + 3 * problem.triangles.size() + problem.corners.size() +
+                problem.wireEdges.size());
   for (const RestTriangle& t : problem.triangles) {
     for (std::size_t k = 0; k < 3; ++k) pairs.emplace_back(t.vertex[k], t.vertex[(k + 1) % 3]);
   }
@@ -126,6 +129,15 @@ Result<Solution> LeastStrain::solve(const Piece& piece, Progress* progress) {
     ++partings;
     stiffness_.doubleAll();
     bending_->setStiffness(stiffness_.ofCorners());
+  }
+  if (!solution.crossings.empty() && options_.keepApart) {
+    Result<Solution> apart = keepApart(*problem_, options_, symmetry_, piece, progress);
+    if (apart) {
+      apart->overlapping = std::move(solution.state.q);
+      apart->state.steps += solution.state.steps;
+      return apart;
+    }
+    if (apart.error().code == ErrorCode::Cancelled) return apart;
   }
   solution.meanEnergy = strain_->energy(solution.state.q) / problem_->area;
   if (!solution.stable) solution.stable = newton_->isStableAt(solution.state);

@@ -14,7 +14,10 @@ namespace toile::unfolding {
 
 /// Which nodes of the plane any objective couples.
 /// @param ties of the vertices, empty for none.
-[[nodiscard]] BlockPattern couplingsOf(const Problem& problem, MirrorTies ties = {});
+/// @param more pairs of vertices to couple.
+[[nodiscard]] BlockPattern couplingsOf(
+    const Problem& problem, MirrorTies ties = {},
+    const std::vector<std::pair<std::uint32_t, std::uint32_t>>& more = {});
 
 /// A placement without folds to begin with: conformal, or on a circle where that folds.
 /// @return NotConverged when neither is without folds.

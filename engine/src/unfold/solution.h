@@ -21,6 +21,8 @@ struct Solution {
   double meanEnergy = 0;   ///< per area, of the strain alone
   ElasticModel elastic;
   std::vector<std::pair<std::uint32_t, std::uint32_t>> crossings;
+  /// Where everything would lie without edges that push each other apart; empty if they need not.
+  Plane overlapping;
 };
 
 [[nodiscard]] std::vector<Finding> makeFindings(const Piece& piece, const Problem& problem,

@@ -7,10 +7,7 @@
 #include "unfold/start.h"
 
 namespace toile::unfolding {
-namespace {
 
-/// Turns the plane so that the axis is x = 0 at best, then moves each pair to the mean of itself
-/// and its mirror image.
 void makeSymmetric(const PieceSymmetry& symmetry, Plane& q) {
   // A pair's difference is across the axis, the sum of two vertices and their images along it.
   Eigen::Vector2d across = Eigen::Vector2d::Zero();
@@ -41,8 +38,6 @@ void makeSymmetric(const PieceSymmetry& symmetry, Plane& q) {
   }
   for (const VertexId v : symmetry.axis) q[2 * static_cast<Eigen::Index>(v.index())] = 0;
 }
-
-}  // namespace
 
 MirrorTies tiesOf(const PieceSymmetry& symmetry, std::size_t vertexCount) {
   constexpr std::uint32_t kNone = 0xffffffffU;

@@ -51,6 +51,10 @@ inline constexpr double kSameVertex = 0.02;
 [[nodiscard]] std::optional<PieceSymmetry> findExactSymmetry(const Piece& piece,
                                                              const Problem& problem);
 
+/// Turns the plane so that the axis is x = 0 at best, then moves each pair to the mean of itself
+/// and its mirror image.
+void makeSymmetric(const PieceSymmetry& symmetry, Plane& q);
+
 /// A placement without folds whose paired vertices are mirror images in x = 0, to the last bit.
 /// @param pattern with the ties of the symmetry.
 /// @return NotConverged when none was found.

@@ -51,6 +51,20 @@ Error outOfMemory() {
           {}};
 }
 
+/// What would overlap elsewhere is told by where its first layer lies now.
+void moveToPlane(const Problem& problem, const Plane& q, std::vector<Overlap>& overlaps) {
+  for (Overlap& overlap : overlaps) {
+    Eigen::Vector2d sum = Eigen::Vector2d::Zero();
+    double area = 0;
+    for (const FaceId f : overlap.layers[0]) {
+      const RestTriangle& t = problem.triangles[f.index()];
+      for (const std::uint32_t v : t.vertex) sum += t.area / 3 * at(q, v);
+      area += t.area;
+    }
+    overlap.middle = sum / area;
+  }
+}
+
 FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOptions& options,
                     bool isSymmetric, ElasticAnswer elastic, Solution solution) {
   Plane& q = solution.state.q;
@@ -70,7 +84,11 @@ FlatPiece flatPiece(const Piece& piece, const Problem& problem, const UnfoldOpti
     flat.meanAreaError += error * problem.triangles[i].area / problem.area;
     flat.maxAreaError = std::max(flat.maxAreaError, error);
   }
-  if (flat.check.crossings > 0) flat.overlaps = findOverlaps(piece, problem, q);
+  const bool isKeptApart = solution.overlapping.size() > 0;
+  if (isKeptApart || flat.check.crossings > 0) {
+    flat.overlaps = findOverlaps(piece, problem, isKeptApart ? solution.overlapping : q);
+  }
+  if (isKeptApart) moveToPlane(problem, q, flat.overlaps);
   flat.findings = makeFindings(piece, problem, options, solution, flat);
   return flat;
 }

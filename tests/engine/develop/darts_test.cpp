@@ -208,11 +208,12 @@ Mesh spiral() {
 
 TEST(Darts, APieceThatLiesOnItselfGetsALineThatOpensIt) {
   const Piece piece = test::patchOf(spiral());
-  const Result<FlatPiece> flat = unfold(piece);
+  const UnfoldOptions asItLies{.keepApart = false};
+  const Result<FlatPiece> flat = unfold(piece, asItLies);
   ASSERT_TRUE(flat) << flat.error();
   ASSERT_GT(flat->check.crossings, 0U);
   ASSERT_LT(flat->meanAreaError, 0.01) << "strain alone asks for nothing";
-  const auto proposals = adviseDarts(piece, *flat);
+  const auto proposals = adviseDarts(piece, *flat, {.unfold = asItLies});
   ASSERT_TRUE(proposals) << proposals.error();
   EXPECT_FALSE(proposals->empty());
   const Result<AutoDart> made = autoDart(patchOfMesh(spiral()), "spiral", Ratio::percent(50));

@@ -40,7 +40,7 @@ Mesh windingStrip(double turns, int segments, int rows) {
 TEST(Overlaps, OfAWindingStripAreWhereItPassesTwice) {
   // 1.1 turns: a tenth of the ring is covered twice.
   const Piece piece = test::patchOf(windingStrip(1.1, 88, 6));
-  const Result<FlatPiece> flat = unfold(piece);
+  const Result<FlatPiece> flat = unfold(piece, {.keepApart = false});
   ASSERT_TRUE(flat) << flat.error();
   ASSERT_GT(flat->check.crossings, 0U);
   ASSERT_EQ(flat->overlaps.size(), 1U);
@@ -71,7 +71,7 @@ TEST(Overlaps, OfAWindingStripAreWhereItPassesTwice) {
 TEST(Overlaps, AreThereExactlyWhereWiresCross) {
   for (const test::GeneratedPiece& each : test::generatedPieces()) {
     SCOPED_TRACE(each.name);
-    const Result<FlatPiece> flat = unfold(each.piece);
+    const Result<FlatPiece> flat = unfold(each.piece, {.keepApart = false});
     if (!flat) continue;
     EXPECT_EQ(!flat->overlaps.empty(), flat->check.crossings > 0);
     double twice = 0;
@@ -79,6 +79,47 @@ TEST(Overlaps, AreThereExactlyWhereWiresCross) {
     if (each.overlapsItself) {
       EXPECT_GT(twice, 1.0);
     }
+  }
+}
+
+// 1.5 turns: the end of the strip passes the beginning at vertices of it, so that no two edges
+// cross inside.
+TEST(Overlaps, AreNoticedWhereTheBoundaryPassesThroughItsOwnVertices) {
+  const Result<FlatPiece> flat =
+      unfold(test::patchOf(windingStrip(1.5, 120, 6)), {.keepApart = false});
+  ASSERT_TRUE(flat) << flat.error();
+  EXPECT_EQ(flat->check.crossings, 2U);
+  EXPECT_EQ(flat->overlaps.size(), 1U);
+}
+
+// What would lie on itself is kept apart, with all lengths; the strip has to be strained for it.
+TEST(KeptApart, IsWhatWouldLieOnItself) {
+  for (const double turns : {1.01, 1.1, 1.5}) {
+    SCOPED_TRACE(turns);
+    const Piece piece = test::patchOf(windingStrip(turns, static_cast<int>(80 * turns), 6));
+    const Result<FlatPiece> over = unfold(piece, {.keepApart = false}), apart = unfold(piece);
+    ASSERT_TRUE(over && apart);
+    ASSERT_GT(over->check.crossings, 0U);
+    EXPECT_TRUE(apart->check.passes());
+    EXPECT_LE(apart->check.maxLengthError, 1e-12);
+    EXPECT_GT(apart->meanAreaError, over->meanAreaError);
+    EXPECT_LT(apart->meanAreaError, 0.06);
+    EXPECT_FALSE(apart->overlaps.empty()) << "where it would have";
+    EXPECT_EQ(apart->findings.front().code, "kept-apart");
+    EXPECT_THAT(apart->findings.front().where, testing::SizeIs(2 * apart->overlaps.size()));
+  }
+}
+
+TEST(KeptApart, ChangesNothingElse) {
+  for (const test::GeneratedPiece& each : test::generatedPieces()) {
+    SCOPED_TRACE(each.name);
+    const Result<FlatPiece> over = unfold(each.piece, {.keepApart = false});
+    const Result<FlatPiece> apart = unfold(each.piece);
+    ASSERT_EQ(over.hasValue(), apart.hasValue());
+    if (!over) continue;
+    EXPECT_TRUE(apart->check.passes());
+    if (over->check.crossings > 0) continue;
+    EXPECT_EQ(apart->position.values(), over->position.values());
   }
 }
 

@@ -48,6 +48,9 @@ struct UnfoldOptions {
   /// A piece that is its own mirror image to rounding unfolds to one (least strain); symmetrise()
   /// is for pieces that are so nearly.
   bool keepSymmetry = true;
+  /// Edges of a piece that would lie on itself are kept apart (least strain), as far as that is
+  /// possible with all lengths.
+  bool keepApart = true;
 };
 
 /// How far one face is from its shape on the body.
@@ -106,8 +109,9 @@ struct FlatPiece {
   /// Sum of w (theta - alpha)^2 over the wire corners, WireWarping's J; without the constant of the
   /// tips of wires that end in the cloth. 0 with the other objective.
   double wireBending = 0;
-  ElasticAnswer elastic;          ///< of wires with an elastic range
-  std::vector<Overlap> overlaps;  ///< by falling area; none where no wires cross
+  ElasticAnswer elastic;  ///< of wires with an elastic range
+  /// What would be covered twice, or is where wires cross; by falling area.
+  std::vector<Overlap> overlaps;
   std::vector<Finding> findings;  ///< crossings, high strain, saddle point, ...
 };
 
