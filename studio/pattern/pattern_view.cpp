@@ -195,10 +195,12 @@ void PatternView::paintEvent(QPaintEvent*) {
   paintMeasure(painter);
   if (pieces_.empty() && session_.hasWork()) {
     painter.setPen(studio::palette().second);
+    const bool isCut = session_.pattern() && session_.pattern()->cut.pieces.size() > 1;
     const QString text =
         session_.document().design->curves.empty()
             ? tr("Nothing drawn yet. Take the pencil (P) and draw a line on the body.")
-            : tr("No piece is closed yet. Lines that run from edge to edge cut a piece.");
+        : isCut ? tr("No piece can lie flat yet. Findings says why, and what helps.")
+                : tr("No piece is closed yet. Lines that run from edge to edge cut a piece.");
     painter.drawText(rect().adjusted(60, 0, -40, 0), Qt::AlignCenter | Qt::TextWordWrap, text);
   }
   pattern.paintRulers();

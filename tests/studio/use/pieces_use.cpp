@@ -6,6 +6,7 @@
 #include <QComboBox>
 #include <QListWidget>
 #include <QSlider>
+#include <QTabWidget>
 #include <QTemporaryDir>
 #include <algorithm>
 #include <cmath>
@@ -318,6 +319,7 @@ void cures(MainWindow& window) {
     return index && session.pattern()->flats[*index] != nullptr;
   };
   require(!made(), "a tube cannot lie flat");
+  window.findChild<QTabWidget*>()->setCurrentIndex(1);
   hand.picture("tube");
   const std::size_t steps = session.history().at();
   clickRow(window, QStringLiteral("Leave out what has no name"));
