@@ -14,6 +14,9 @@
 #include <vector>
 
 #include "support/run_program.h"
+#include "support/test_data.h"
+#include "toile/mesh/mesh_file.h"
+#include "toile/model/reference_model.h"
 
 extern char** environ;  // NOLINT: of the C library
 
@@ -118,6 +121,42 @@ TEST_F(Batch, IsResumedAfterAKillWithTheSameBytesAndNoWorkTwice) {
   EXPECT_THAT(resumed.out, HasSubstr("2 of 4 orders done"));
   EXPECT_EQ(fs::last_write_time(out / "anna" / "order.json"), made);
   EXPECT_EQ(filesIn(out), filesIn(whole_));
+}
+
+// Each can be read, and would make pieces: none may become a pattern.
+TEST_F(Batch, BodiesOfAnotherKindFailAndSayWhy) {
+  TOILE_TEST_DATA_OR_SKIP(chair, "toys/armchair.ply");
+  TOILE_TEST_DATA_OR_SKIP(foot, "feet/foot_male_average_l.ply");
+  TOILE_TEST_DATA_OR_SKIP(man, "bodies/male_average.ply");
+  const Mesh body = *readModel(man, FileUnit::Millimetre).value().mesh;
+  const auto write = [&](const char* name, const auto& move) {
+    std::vector<Eigen::Vector3d> places;
+    for (const Eigen::Vector3d& p : body.positions()) places.push_back(move(p));
+    writeText(folder_->path() / name, writePly(body.withPositions(std::move(places))));
+  };
+  write("metres.ply", [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p / 1000); });
+  write("mirrored.ply",
+        [](const Eigen::Vector3d& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); });
+  writeText(folder_->path() / "kinds.csv",
+            "name,body,units\nchair," + chair.string() + ",mm\nfoot," + foot.string() +
+                ",mm\nmetres,metres.ply,mm\nmirrored,mirrored.ply,mm\n"
+                "ben,builtin:body@1?size=EU50M,\n");
+  const fs::path out = folder_->path() / "kinds";
+  const ProgramResult result =
+      toile({"batch", kWetsuit, "--bodies", folder_->path() / "kinds.csv", "-o", out, "-j", "2"});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.out, HasSubstr("1 of 5 orders done"));
+  EXPECT_TRUE(fs::exists(out / "ben" / "pattern.dxf"));
+  for (const auto& [name, reason] : {std::pair{"chair", "another kind of model"},
+                                     {"foot", "another kind of model"},
+                                     {"metres", "m taken for mm"},
+                                     {"mirrored", "it may be mirrored"}}) {
+    EXPECT_THAT(result.err, HasSubstr(std::string(name) + ": failed: "));
+    const std::string order = readText(out / name / "order.json");
+    EXPECT_THAT(order, HasSubstr("\"status\": \"failed\""));
+    EXPECT_THAT(order, HasSubstr(reason));
+    EXPECT_FALSE(fs::exists(out / name / "pattern.dxf")) << name;
+  }
 }
 
 TEST_F(Batch, ListsThatCannotBeReadAreRefused) {

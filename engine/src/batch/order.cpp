@@ -105,6 +105,13 @@ Result<OrderOutcome> makeIn(const fs::path& folder, const fs::path& design, cons
     if (carried.error().code == ErrorCode::Cancelled) return carried.error();
     return failed(carried.error());
   }
+  // Left for right would look right and be wrong, and nobody may be there to see the finding.
+  for (const Finding& finding : carried->transfer.findings) {
+    if (finding.code != "maybe-mirrored") continue;
+    return failed({ErrorCode::InvalidArgument,
+                   finding.message + "; `toile scan --inward-faces` mends it either way",
+                   {}});
+  }
   if (carried->fit) {
     outcome.isFitted = true;
     outcome.fitMean = carried->fit->report.scanToFit.mean;

@@ -242,6 +242,9 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
       const Result<ReferenceModel> body = makeBody(*like);
       if (!body) return body.error();
       common.family = fineFamily(*like);
+      // Together with what the first fit had: that may have come to the wrong level of the bust.
+      common.family.insert(common.family.end(), best->options.family.begin(),
+                           best->options.family.end());
       const Fitter fitter(*body, scan.name, common, progress);
       const std::optional<Draft> draft = fitter.draftFrom(best->draft, *target);
       if (!draft) return cancelled;

@@ -14,7 +14,8 @@ namespace toile::fitting {
 namespace {
 
 // Of the scan's diagonal.
-constexpr double kCap = 0.05;   // distances count no more than this
+constexpr double kCap = 0.05;  // distances count no more than this
+constexpr double kEdgeStep = 0.002;
 constexpr double kGap = 0.013;  // farther from the rest of the body than this is the limb
 /// The limb may be that much longer than the template's.
 constexpr double kReach = 1.3;
@@ -215,8 +216,20 @@ class ArmFinder {
     }
     const Eigen::Vector3d room = Eigen::Vector3d::Constant(kCap * target_.diagonal);
     box.extend(Eigen::Vector3d(box.min() - room)).extend(Eigen::Vector3d(box.max() + room));
-    for (const Eigen::Vector3d& p : target_.points) {
+    const auto add = [&](const Eigen::Vector3d& p) {
       if (box.contains(p) && isMoved(arm.shoulder(), tree.nearest(p).point)) points.push_back(p);
+    };
+    for (const Eigen::Vector3d& p : target_.points) add(p);
+    // Along the edges of large triangles, which are as good as points.
+    const double step = kEdgeStep * target_.diagonal;
+    for (const Triangle& t : target_.triangles) {
+      for (std::size_t k = 0; k < 3; ++k) {
+        const Eigen::Vector3d& a = target_.points[t[k].index()];
+        const Eigen::Vector3d& b = target_.points[t[(k + 1) % 3].index()];
+        if (!box.contains(a) || !box.contains(b)) continue;
+        const auto parts = static_cast<int>((b - a).norm() / step);
+        for (int i = 1; i < parts; ++i) add(a + static_cast<double>(i) / parts * (b - a));
+      }
     }
     return points;
   }

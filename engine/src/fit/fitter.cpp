@@ -69,7 +69,8 @@ Result<void> checkSize(const Mesh& mesh, const std::string& name, const std::str
       ErrorCode::UnitsMissing,
       fmt::format("{} is {:.4g} mm across, the template {:.4g} mm{}; say the unit of the "
                   "file with --units",
-                  scanName, target.diagonal, own, likely.empty() ? "" : ": is it " + likely + "?"),
+                  scanName, target.diagonal, own,
+                  likely.empty() ? "" : ": is it " + likely + ", or another kind of model?"),
       {}};
 }
 
@@ -150,6 +151,11 @@ std::optional<Draft> Fitter::draftFrom(const Draft& near, const Target& target) 
   if (!segmentOf.empty()) {
     std::vector<Similarity> motions;
     for (std::uint32_t s = 0; s < bodySegments().size(); ++s) {
+      const std::string& name = bodySegments()[s].name;
+      if (!name.ends_with("arm") && !name.ends_with("hand")) {
+        motions.emplace_back();
+        continue;
+      }
       std::vector<double> weights = there.area;
       for (std::size_t v = 0; v < weights.size(); ++v) {
         if (segmentOf[v] != s) weights[v] = 0;

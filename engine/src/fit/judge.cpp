@@ -22,12 +22,15 @@ namespace {
 constexpr double kMissing = 0.006;
 constexpr double kSpacing = 2;  // mm
 constexpr double kNoise = 1;    // mm
+/// Half the diagonal of long triangles, over the root of what a point stands for.
+constexpr double kSparse = 1.5;
 /// A mirror image that lies so much better is what was scanned.
 constexpr double kMirrored = 0.8;
 /// A second placement that is not worse than this leaves a doubt.
 constexpr double kUnsure = 1.15;
 /// A region of which a twentieth is that many times the mean's limit off is told.
 constexpr double kRegionOff = 3;
+constexpr double kJustMissed = 1.001;
 
 struct Foot {
   std::uint32_t face = 0;
@@ -118,7 +121,8 @@ class Judge {
       const double above = n.dot(p - fit_.target.points[near.point]);
       distances[v] = std::abs(above);
       back[v] = p - above * n;
-      isMissing_[v] = std::sqrt(near.squaredDistance) > gap ? 1 : 0;
+      const double spacing = kSparse * std::sqrt(fit_.target.area[near.point]);
+      isMissing_[v] = std::sqrt(near.squaredDistance) > std::max(gap, spacing) ? 1 : 0;
     }
     const std::vector<Foot> feet = feetOn(fit_.mesh, tree_, back);
     std::vector<double> kept, areas, trips;
@@ -191,7 +195,8 @@ class Judge {
                     report_.scanToFit.mean, meanLimit()));
     const double flipped =
         static_cast<double>(report_.flippedFaces) / static_cast<double>(fit_.mesh.faceCount());
-    add(flipped / limits.flippedShare.value(), "fit-flipped-faces",
+    // Mostly it follows from another reason: it is told after them.
+    add(std::min(flipped / limits.flippedShare.value(), kJustMissed), "fit-flipped-faces",
         fmt::format("{} triangles are turned inside out", report_.flippedFaces));
     const double scale = report_.scale;
     add(std::max(limits.leastScale / scale, scale / limits.mostScale), "fit-size",

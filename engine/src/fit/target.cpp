@@ -141,6 +141,7 @@ void takeFromNeighbours(Target& target) {
 Target makeTarget(const Scan& scan) {
   const std::size_t count = scan.points.size();
   Target target{scan.points,
+                scan.triangles,
                 std::vector<Eigen::Vector3d>(count, Eigen::Vector3d::Zero()),
                 std::vector<double>(count, 0.0),
                 std::vector<char>(count, 0),

@@ -12,6 +12,7 @@ namespace toile::fitting {
 /// A scan made ready: what every step asks of its points.
 struct Target {
   std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> triangles;       ///< none for clouds
   std::vector<Eigen::Vector3d> normals;  ///< unit, outwards once placed; zero where there is none
   std::vector<double> area;              ///< mm2 that a point stands for
   std::vector<char> isBorder;            ///< at the edge of a hole

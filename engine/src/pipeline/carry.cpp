@@ -5,45 +5,14 @@
 
 #include <Eigen/Geometry>
 #include <algorithm>
-#include <array>
 
-#include "toile/body/body.h"
+#include "body/body_template.h"
+#include "toile/body/fit_body.h"
 #include "toile/curve/curvature.h"
 
 namespace toile {
 
 namespace {
-
-/// One body of the family: what is said of it, the rest follows.
-struct Kind {
-  double masculine;
-  double height, chest, waist, hip;  ///< mm; 0 = not said
-};
-constexpr std::array kFamily = {
-    Kind{0, 0, 0, 0, 0},           // the model of most designs
-    Kind{1, 0, 0, 0, 0},           // a man
-    Kind{0, 1790, 0, 0, 0},        // tall
-    Kind{0, 1550, 0, 0, 0},        // short
-    Kind{0, 0, 1160, 1020, 1190},  // heavy
-    Kind{1, 0, 1180, 1120, 1160},  // a heavy man
-    Kind{1, 1880, 0, 0, 0},        // a tall man
-    Kind{0, 1280, 0, 0, 0},        // a child
-};
-
-std::shared_ptr<const Mesh> makeMember(const Kind& kind) {
-  BodyOptions options;
-  options.masculine = kind.masculine;
-  const auto say = [&](BodyMeasure measure, double mm) {
-    if (mm > 0) options.measures[measure] = Length::mm(mm);
-  };
-  say(BodyMeasure::Height, kind.height);
-  say(BodyMeasure::Chest, kind.chest);
-  say(BodyMeasure::Waist, kind.waist);
-  say(BodyMeasure::Hip, kind.hip);
-  const Result<ReferenceModel> body = makeBody(options);
-  TOILE_ASSERT(body.hasValue());
-  return body->mesh;
-}
 
 /// Hands of scans are in any posture, and most products end before them: a share of the scan may be
 /// beside the fit. Half a body or two people are far beyond.
@@ -96,15 +65,26 @@ std::vector<Finding> findingsOf(const Scan& scan, const Fit& fit) {
   return findings;
 }
 
-Result<Fit> fitWithFamily(const ReferenceModel& model, const Scan& scan, FitOptions fitting,
-                          Progress* progress) {
+/// The design's model in the shape of a scan. A built-in body brings what bodies differ in along.
+Result<Fit> fitModel(const ReferenceModel& model, const Scan& scan, FitOptions fitting,
+                     Progress* progress) {
   if (progress != nullptr) progress->step("fit the model to " + scan.name);
   fitting.limits.strayShare = std::max(fitting.limits.strayShare, Ratio::of(kStrayShare));
   fitting.limits.missingShare = std::max(fitting.limits.missingShare, Ratio::of(kMissingShare));
-  const auto& family = builtinFamily();
-  if (fitting.family.empty() &&
-      model.mesh->connectivityHash() == family.front()->connectivityHash()) {
-    fitting.family = family;
+  const Mesh& builtin = *body::bodyTemplate().mesh;
+  if (fitting.family.empty() && model.mesh->connectivityHash() == builtin.connectivityHash()) {
+    Result<BodyFit> body = fitBody(scan,
+                                   {.landmarks = std::move(fitting.landmarks),
+                                    .landmarkError = fitting.landmarkError,
+                                    .limits = fitting.limits},
+                                   progress);
+    if (!body) return body.error();
+    if (!body->fit.report.isOk()) return missedLimits(body->fit, scan.name);
+    // The design may name more on its model than the built-in body does.
+    Result<ReferenceModel> named = withMesh(model, scan.name, *body->fit.model.mesh);
+    if (!named) return named.error();
+    body->fit.model = *std::move(named);
+    return std::move(body->fit);
   }
   Result<Fit> fit = fitTemplate(model, scan, fitting, progress);
   if (!fit) return fit.error();
@@ -114,15 +94,6 @@ Result<Fit> fitWithFamily(const ReferenceModel& model, const Scan& scan, FitOpti
 
 }  // namespace
 
-const std::vector<std::shared_ptr<const Mesh>>& builtinFamily() {
-  static const auto family = [] {
-    std::vector<std::shared_ptr<const Mesh>> members;
-    for (const Kind& kind : kFamily) members.push_back(makeMember(kind));
-    return members;
-  }();
-  return family;
-}
-
 Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceModel& target,
                                 const FitOptions& options, Progress* progress) {
   if (model.mesh->connectivityHash() == target.mesh->connectivityHash()) {
@@ -130,7 +101,7 @@ Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceMode
     if (!map) return map.error();
     return MappedModels{*std::move(map), std::nullopt};
   }
-  Result<Fit> fit = fitWithFamily(model, makeScan(target.name, *target.mesh), options, progress);
+  Result<Fit> fit = fitModel(model, makeScan(target.name, *target.mesh), options, progress);
   if (!fit) return fit.error();
   Result<Correspondence> map =
       Correspondence::throughFit(model.index, fit->model.index, target.index);
@@ -140,7 +111,7 @@ Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceMode
 
 Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
                                   const CarryOptions& options, Progress* progress) {
-  Result<Fit> fit = fitWithFamily(*document.model, scan, options.fit, progress);
+  Result<Fit> fit = fitModel(*document.model, scan, options.fit, progress);
   if (!fit) return fit.error();
   const auto target = std::make_shared<const ReferenceModel>(fit->model);
   const auto map = Correspondence::onOneConnectivity(document.model->index, target->index);

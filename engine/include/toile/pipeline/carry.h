@@ -4,7 +4,6 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "toile/core/progress.h"
 #include "toile/fit/fit.h"
@@ -14,8 +13,7 @@ namespace toile {
 
 struct CarryOptions {
   TransferOptions transfer;
-  FitOptions fit;  ///< an empty family is filled from the built-in bodies where the design's model
-                   ///< has their connectivity
+  FitOptions fit;  ///< without a family a built-in body is fitted by fitBody()
 };
 
 /// A design on the shape of a scan.
@@ -23,10 +21,6 @@ struct CarriedDesign {
   Transfer transfer;
   std::optional<Fit> fit;  ///< nothing where the body has the design's own connectivity
 };
-
-/// What the shapes of built-in bodies usually differ in: women, men, children, slim and heavy, on
-/// the connectivity of builtin:body@1. Made once for a process.
-const std::vector<std::shared_ptr<const Mesh>>& builtinFamily();
 
 /// The map from model to model.
 struct MappedModels {
