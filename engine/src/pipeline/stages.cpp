@@ -262,6 +262,16 @@ ContentHash cacheKey(const Pattern& pattern, std::size_t index, const PieceSymme
   return hasher.finish();
 }
 
+/// Faces of a piece are told as those of the model that they are parts of.
+static void nameOnModel(const Piece& piece, std::vector<Element>& where) {
+  for (Element& element : where) {
+    if (element.kind == Element::Kind::Face) {
+      element = Element::face(piece.sourceFace[FaceId(element.index)]);
+    }
+  }
+  where.push_back(Element::piece(piece.id));
+}
+
 void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>& entries) {
   const std::vector<Piece>& pieces = pattern.cut.pieces;
   pattern.flats.assign(pieces.size(), nullptr);
@@ -283,6 +293,7 @@ void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>
     }
     for (Finding finding : entry.flat->findings) {
       finding.message = quoted(pieces[i]) + ": " + finding.message;
+      nameOnModel(pieces[i], finding.where);
       pattern.findings.push_back(std::move(finding));
     }
     if (entry.flat->check.passes()) continue;

@@ -45,7 +45,9 @@ Barrier barrierAt(double x) {
   return {-y * y * log, -2 * y * log - y * y / x, -2 * log - 4 * y / x + y * y / (x * x)};
 }
 
-double weightOf(const Contact& contact) { return kModulus * contact.portion * contact.reach; }
+double weightOf(const Contact& contact) {
+  return kModulus * contact.portion * contact.reach;
+}
 
 bool cross(const Plane& q, std::pair<std::uint32_t, std::uint32_t> e,
            std::pair<std::uint32_t, std::uint32_t> f) {
@@ -98,14 +100,13 @@ Contact ContactBarrier::contactOf(const Edge& point, const Edge& edge) const {
       const double ahead = std::abs(point.begin - end);
       return std::min(ahead, std::abs(whole - ahead));
     };
-    reach = std::min(
-        reach, kReachOfWay * std::min(wayTo(edge.begin), wayTo(edge.begin + edge.length)));
+    reach =
+        std::min(reach, kReachOfWay * std::min(wayTo(edge.begin), wayTo(edge.begin + edge.length)));
   }
   return {point.a, edge.a, edge.b, reach, point.portion};
 }
 
-std::optional<std::vector<Contact>> ContactBarrier::contactsAt(const Plane& q,
-                                                               double wider) const {
+std::optional<std::vector<Contact>> ContactBarrier::contactsAt(const Plane& q, double wider) const {
   std::vector<std::pair<Eigen::Vector2d, Eigen::Vector2d>> segments;
   segments.reserve(edges_.size());
   for (const Edge& edge : edges_) segments.emplace_back(at(q, edge.a), at(q, edge.b));
@@ -128,8 +129,7 @@ std::optional<std::vector<Contact>> ContactBarrier::contactsAt(const Plane& q,
   return contacts;
 }
 
-void ContactBarrier::usePattern(const BlockPattern& pattern,
-                                const std::vector<Contact>& contacts) {
+void ContactBarrier::usePattern(const BlockPattern& pattern, const std::vector<Contact>& contacts) {
   places_.clear();
   for (const Contact& contact : contacts) {
     for (const Pair& pair : {Pair{contact.point, contact.a}, Pair{contact.point, contact.b},

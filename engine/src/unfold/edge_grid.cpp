@@ -24,8 +24,7 @@ std::vector<std::pair<std::uint32_t, std::uint32_t>> nearSegments(
   // Cells of about a segment; no more of them than a few per segment, however long the piece is.
   const double extent = (high - low).maxCoeff();
   const double count = static_cast<double>(segments.size());
-  const double cell =
-      std::max({extent / (1.0 + 4.0 * std::sqrt(count)), 0.25 * longest, 1e-300});
+  const double cell = std::max({extent / (1.0 + 4.0 * std::sqrt(count)), 0.25 * longest, 1e-300});
   const std::int64_t columns = static_cast<std::int64_t>((high.x() - low.x()) / cell) + 1;
   std::vector<std::pair<std::int64_t, std::uint32_t>> entries;  // cell, segment
   for (std::uint32_t i = 0; i < segments.size(); ++i) {

@@ -72,8 +72,7 @@ class Coupled {
 }  // namespace
 
 Result<Solution> keepApart(const Problem& problem, const UnfoldOptions& options,
-                           const PieceSymmetry* symmetry, const Piece& piece,
-                           Progress* progress) {
+                           const PieceSymmetry* symmetry, const Piece& piece, Progress* progress) {
   const Error none{ErrorCode::NotConverged, "no plane was found that covers nothing twice", {}};
   std::optional<Plane> start = convexStart(problem, symmetry);
   if (!start) return none;
@@ -90,9 +89,9 @@ Result<Solution> keepApart(const Problem& problem, const UnfoldOptions& options,
     const auto meeting = barrier.contactsAt(state.q, 1);
     if (!meeting) return false;
     if (!coupled || !coupled->covers(*meeting)) {
-      coupled = std::make_unique<Coupled>(problem, options, symmetry, barrier,
-                                          *barrier.contactsAt(state.q, kWider), hold, stiffness,
-                                          state.q);
+      coupled =
+          std::make_unique<Coupled>(problem, options, symmetry, barrier,
+                                    *barrier.contactsAt(state.q, kWider), hold, stiffness, state.q);
     }
     return true;
   };
@@ -109,8 +108,8 @@ Result<Solution> keepApart(const Problem& problem, const UnfoldOptions& options,
   NewtonEnd end = NewtonEnd::StepLimit;
   while (end == NewtonEnd::StepLimit && state.steps < kMoreSteps * options.maxSteps) {
     if (!couple()) return none;
-    end = coupled->newton().minimise(
-        state, {.maxSteps = state.steps + 1, .adjust = stiffen}, progress);
+    end = coupled->newton().minimise(state, {.maxSteps = state.steps + 1, .adjust = stiffen},
+                                     progress);
   }
   if (end == NewtonEnd::Cancelled) return Error{ErrorCode::Cancelled, "stopped", {}};
   if (end == NewtonEnd::Stalled || !couple()) return none;

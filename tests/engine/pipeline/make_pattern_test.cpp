@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <set>
 #include <string>
 
+#include "support/meshes.h"
 #include "support/sample_designs.h"
 #include "toile/core/parallel.h"
 #include "toile/io/report.h"
@@ -139,6 +141,57 @@ TEST(MakePattern, CutsATubeOpenWhenAsked) {
   EXPECT_THAT(pattern->findings, testing::Contains(testing::Field(&Finding::code, "auto-cut")));
   EXPECT_THAT(pattern->findings,
               testing::Not(testing::Contains(testing::Field(&Finding::code, "tube-without-cut"))));
+}
+
+// A level strip of 1.3 turns, parted near its beginning: the rest would lie on itself.
+TEST(MakePattern, KeepsAPieceApartThatWouldLieOnItselfAndTellsWhereOnTheModel) {
+  constexpr int kSegments = 104, kRows = 6;
+  std::vector<Eigen::Vector3d> positions;
+  for (int j = 0; j <= kRows; ++j) {
+    for (int i = 0; i <= kSegments; ++i) {
+      const double turn = -2 * std::numbers::pi * 1.3 * i / kSegments;
+      const double radius = 80 + 40.0 * j / kRows + 10.0 * i / kSegments;
+      positions.emplace_back(radius * std::cos(turn), radius * std::sin(turn),
+                             100.0 * i / kSegments);
+    }
+  }
+  const auto at = [&](int column) {
+    return NearPosition{positions[static_cast<std::size_t>(column)], {}};
+  };
+  const auto outer = [&](int column) {
+    return NearPosition{positions[static_cast<std::size_t>(kRows * (kSegments + 1) + column)], {}};
+  };
+  Design design;
+  StylingCurve seam;
+  seam.id = "seam";
+  seam.way = SmoothWay{{at(12), outer(12)}, SubdivisionRule::Auto, {}, {}};
+  design.curves.push_back(seam);
+  for (const auto& [id, column] : {std::pair{"begin", 6}, std::pair{"rest", 60}}) {
+    PieceRecord record;
+    record.id = id;
+    record.anchor =
+        NearPosition{positions[static_cast<std::size_t>(3 * (kSegments + 1) + column)], {}};
+    design.pieces.push_back(record);
+  }
+  const Mesh strip = test::grid(kSegments, kRows).withPositions(positions);
+  const Result<Pattern> pattern =
+      makePattern({std::make_shared<const Design>(design),
+                   std::make_shared<const ReferenceModel>(makeReferenceModel("strip", strip))});
+  ASSERT_TRUE(pattern) << pattern.error();
+  EXPECT_TRUE(pattern->isComplete());
+  const auto told = std::find_if(pattern->findings.begin(), pattern->findings.end(),
+                                 [](const Finding& f) { return f.code == "kept-apart"; });
+  ASSERT_NE(told, pattern->findings.end());
+  EXPECT_THAT(told->where, testing::Contains(Element::piece("rest")));
+  std::size_t faces = 0;
+  for (const Element& element : told->where) {
+    if (element.kind != Element::Kind::Face) continue;
+    ++faces;
+    // The rest's own beginning, from column 12 on, and its end: by height on the model.
+    const double along = strip.position(strip.vertices(FaceId(element.index))[0]).z() / 100;
+    EXPECT_TRUE((along > 0.1 && along < 0.4) || along > 0.75) << along;
+  }
+  EXPECT_GE(faces, 2U);
 }
 
 TEST(MakePattern, StopsWhenCancelled) {
