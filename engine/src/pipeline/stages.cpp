@@ -139,6 +139,16 @@ PatternCache::Entry solve(const Piece& piece, const PieceSymmetry* symmetry,
   return entry;
 }
 
+/// Faces of a piece are told as those of the model that they are parts of.
+void nameOnModel(const Piece& piece, std::vector<Element>& where) {
+  for (Element& element : where) {
+    if (element.kind == Element::Kind::Face) {
+      element = Element::face(piece.sourceFace[FaceId(element.index)]);
+    }
+  }
+  where.push_back(Element::piece(piece.id));
+}
+
 }  // namespace
 
 Error cancelled() {
@@ -260,16 +270,6 @@ ContentHash cacheKey(const Pattern& pattern, std::size_t index, const PieceSymme
     }
   }
   return hasher.finish();
-}
-
-/// Faces of a piece are told as those of the model that they are parts of.
-static void nameOnModel(const Piece& piece, std::vector<Element>& where) {
-  for (Element& element : where) {
-    if (element.kind == Element::Kind::Face) {
-      element = Element::face(piece.sourceFace[FaceId(element.index)]);
-    }
-  }
-  where.push_back(Element::piece(piece.id));
 }
 
 void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>& entries) {
