@@ -15,7 +15,7 @@ namespace toile {
 namespace {
 
 constexpr double kPointsPerMm = 72 / 25.4;
-constexpr int kFirstPlaceholder = 7;  // columns
+constexpr int kFirstStandIn = 7;  // columns of the row of dots that stands in for a picture
 
 cairo_status_t append(void* bytes, const unsigned char* data, unsigned int size) {
   static_cast<std::string*>(bytes)->append(reinterpret_cast<const char*>(data), size);
@@ -246,16 +246,16 @@ double PdfCanvas::image(std::string_view png, const Eigen::Vector2d& upperLeft, 
   // The library would pack the picture anew, which takes longer than all else of a document. It
   // draws one row of as many dots as no other picture has, which finish() replaces.
   State& s = *state_;
-  const int columns = kFirstPlaceholder + static_cast<int>(s.images.size());
+  const int columns = kFirstStandIn + static_cast<int>(s.images.size());
   s.images.push_back(*std::move(picture));
-  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> placeholder(
+  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> standIn(
       cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, 1));
   cairo_t* cairo = s.cairo.get();
   const Eigen::Vector2d corner = toPage(upperLeft);
   cairo_save(cairo);
   cairo_translate(cairo, corner.x(), corner.y());
   cairo_scale(cairo, height / aspect * kPointsPerMm / columns, height * kPointsPerMm);
-  cairo_set_source_surface(cairo, placeholder.get(), 0, 0);
+  cairo_set_source_surface(cairo, standIn.get(), 0, 0);
   cairo_paint(cairo);
   cairo_restore(cairo);
   return height;
@@ -276,8 +276,7 @@ Result<std::string> PdfCanvas::finish() {
                  {}};
   std::string bytes = hasDate_ ? std::move(s.bytes) : withoutCreationDate(std::move(s.bytes));
   for (std::size_t i = 0; i < s.images.size(); ++i)
-    bytes =
-        withImage(std::move(bytes), kFirstPlaceholder + static_cast<std::uint32_t>(i), s.images[i]);
+    bytes = withImage(std::move(bytes), kFirstStandIn + static_cast<std::uint32_t>(i), s.images[i]);
   return bytes;
 }
 
