@@ -64,11 +64,11 @@ ScanWithTruth readScanWithTruth(const std::string& name) {
 
 /// By how much the closed tailor's curves are longer or shorter than on the true body, ascending.
 std::vector<double> girthErrors(const ScanCase& one, const Fit& fit) {
-  const Mesh& body = *test::readBody(one.scan.substr(0, one.scan.find_last_of('_'))).mesh;
+  const ReferenceModel body = test::readBody(one.scan.substr(0, one.scan.find_last_of('_')));
   std::vector<double> errors;
   for (const auto& [name, path] : fit.model.curves) {
     if (!path.closed) continue;
-    errors.push_back(std::abs(length(*fit.model.mesh, path) - length(body, path)));
+    errors.push_back(std::abs(length(*fit.model.mesh, path) - length(*body.mesh, path)));
   }
   std::sort(errors.begin(), errors.end());
   return errors;
