@@ -54,7 +54,7 @@ inline constexpr double kLayoutGapMm = 10;  ///< least distance between cut line
 /// lies on the sheet exactly symmetric. Pieces placed by hand are fixed from the start.
 /// @param pieceIndex per pattern piece its index in `cut.pieces` and in `flats`.
 /// @param byHand the design's `layout`; two pieces that overlap there are left so, with a finding.
-/// @par Cost  bench/layout_bench.cpp
+/// @par Cost  bench/output_bench.cpp
 Result<Layout> arrange(const ReferenceModel& model, const CutResult& cut,
                        const std::vector<std::shared_ptr<const FlatPiece>>& flats,
                        const std::vector<PatternPiece>& pattern,
