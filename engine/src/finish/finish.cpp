@@ -127,9 +127,11 @@ std::vector<Eigen::Vector2d> drillHoles(const SewOutline& sew) {
 
 }  // namespace
 
-Result<std::vector<PatternPiece>> finish(
-    const Document& document, const std::vector<PlacedCurve>& curves, const CutResult& cut,
-    const std::vector<std::shared_ptr<const FlatPiece>>& flats) {
+Result<std::vector<PatternPiece>> finish(const Document& document,
+                                         const std::vector<PlacedCurve>& curves,
+                                         const CutResult& cut,
+                                         const std::vector<std::shared_ptr<const FlatPiece>>& flats,
+                                         const std::vector<const PatternPiece*>& known) {
   const Design& design = *document.design;
   std::vector<PieceInWork> work;
   std::vector<std::vector<CornerStyle>> styles;
@@ -159,6 +161,12 @@ Result<std::vector<PatternPiece>> finish(
     const Piece& piece = *work[p].piece;
     const SewOutline& sew = work[p].sew;
     PatternPiece& out = pattern[p];
+    if (work[p].index < known.size() && known[work[p].index] != nullptr) {
+      out = *known[work[p].index];
+      out.number = static_cast<int>(p) + 1;
+      out.of = static_cast<int>(work.size());
+      return;
+    }
     out.id = piece.id;
     out.name = piece.name.empty() ? piece.id : piece.name;
     out.number = static_cast<int>(p) + 1;

@@ -32,11 +32,13 @@ struct LivePattern::State {
   std::size_t reused = 0;
   /// Of the last answer, by piece id.
   std::map<std::string, std::shared_ptr<const FlatPiece>> flats;
+  std::map<std::string, PatternPiece> finished;
   std::map<std::string, Placement> placements;
   std::shared_ptr<const ReferenceModel> model;
 
   Result<Pattern> preview(const Document& document, std::set<std::size_t>& touched,
                           Progress* progress);
+  [[nodiscard]] std::vector<const PatternPiece*> untouched(const Pattern& pattern) const;
   Result<void> keepPlaces(Pattern& pattern, Progress* progress) const;
   LiveAnswer answer(Pattern pattern, const std::set<std::size_t>& touched);
 };
@@ -86,12 +88,27 @@ Result<Pattern> LivePattern::State::preview(const Document& document,
     }
     pattern.flats[i] = std::make_shared<const FlatPiece>(*std::move(flat));
   }
-  if (const Result<void> done = stages::finishPieces(pattern, progress); !done) {
+  if (const Result<void> done = stages::finishPieces(pattern, progress, untouched(pattern));
+      !done) {
     return done.error();
   }
   if (const Result<void> done = keepPlaces(pattern, progress); !done) return done.error();
   previewed += work.size();
   return pattern;
+}
+
+/// Per piece of the cut how it was finished, if its plane is still the same. Marks that a touched
+/// neighbour moves along the seam follow with the full answer.
+std::vector<const PatternPiece*> LivePattern::State::untouched(const Pattern& pattern) const {
+  std::vector<const PatternPiece*> known(pattern.cut.pieces.size(), nullptr);
+  if (pattern.document.model != model) return known;
+  for (std::size_t i = 0; i < known.size(); ++i) {
+    const auto flat = flats.find(pattern.cut.pieces[i].id);
+    const auto piece = finished.find(pattern.cut.pieces[i].id);
+    if (flat == flats.end() || piece == finished.end()) continue;
+    if (flat->second == pattern.flats[i]) known[i] = &piece->second;
+  }
+  return known;
 }
 
 /// Pieces stay where they were: a flat piece turns about its middle. Where one is new, all are
@@ -135,9 +152,11 @@ LiveAnswer LivePattern::State::answer(Pattern pattern, const std::set<std::size_
   }
   flats = std::move(now);
   std::erase_if(previews, [&](const auto& entry) { return !flats.contains(entry.first); });
+  finished.clear();
   placements.clear();
   for (std::size_t k = 0; k < pattern.pieces.size(); ++k) {
     placements[pattern.pieces[k].id] = pattern.layout.placements[k];
+    finished[pattern.pieces[k].id] = pattern.pieces[k];
   }
   model = pattern.document.model;
   answer.pattern = std::move(pattern);

@@ -367,10 +367,11 @@ void unfoldPieces(Pattern& pattern, const Symmetries& symmetries, const MakeOpti
   takeEntries(pattern, entries);
 }
 
-Result<void> finishPieces(Pattern& pattern, Progress* progress) {
+Result<void> finishPieces(Pattern& pattern, Progress* progress,
+                          const std::vector<const PatternPiece*>& known) {
   tell(progress, "finish the pieces: allowance, notches, grain");
   Result<std::vector<PatternPiece>> pieces =
-      finish(pattern.document, pattern.curves, pattern.cut, pattern.flats);
+      finish(pattern.document, pattern.curves, pattern.cut, pattern.flats, known);
   if (!pieces) return pieces.error();
   pattern.pieces = std::move(*pieces);
   pattern.pieceIndex.clear();

@@ -37,7 +37,9 @@ void unfoldPieces(Pattern& pattern, const Symmetries& symmetries, const MakeOpti
                   PatternCache& cache, Progress* progress);
 
 /// Makes pattern pieces of the pieces that have a plane.
-Result<void> finishPieces(Pattern& pattern, Progress* progress);
+/// @param known  as for finish()
+Result<void> finishPieces(Pattern& pattern, Progress* progress,
+                          const std::vector<const PatternPiece*>& known = {});
 Result<void> arrangePieces(Pattern& pattern, Progress* progress);
 
 }  // namespace toile::stages

@@ -107,11 +107,15 @@ struct PatternPiece {
 /// @param cut the pieces.
 /// @param flats per piece of `cut`, null where unfolding failed or the piece is left out: those
 /// give no pattern piece.
+/// @param known per piece of `cut` what it was finished to before, if that is good enough (a
+///   preview, of what is not touched): taken as it is. Null or absent: finish it.
 /// @return pattern pieces in the order of the pieces that have a flat, or InvalidArgument where a
 ///   piece's boundary wires do not form closed loops or a flat piece does not fit its piece.
-Result<std::vector<PatternPiece>> finish(
-    const Document& document, const std::vector<PlacedCurve>& curves, const CutResult& cut,
-    const std::vector<std::shared_ptr<const FlatPiece>>& flats);
+Result<std::vector<PatternPiece>> finish(const Document& document,
+                                         const std::vector<PlacedCurve>& curves,
+                                         const CutResult& cut,
+                                         const std::vector<std::shared_ptr<const FlatPiece>>& flats,
+                                         const std::vector<const PatternPiece*>& known = {});
 
 /// Makes a symmetric piece (to 0.05 mm, about a line across its up, without holes) the half that
 /// lies on the wearer's left, with its edge on the fold; the seams of the other half go.
