@@ -294,13 +294,14 @@ class Refiner {
     return VertexId(rank);
   }
 
-  Result<std::vector<Triangle>> refineFace(FaceId f) const {
+  [[nodiscard]] bool staysWhole(FaceId f) const {
     const auto isSplit = [&](int side) {
       return !table_.onEdge(mesh_.edge(mesh_.halfedge(f, side))).empty();
     };
-    if (table_.inFace(f).empty() && !isSplit(0) && !isSplit(1) && !isSplit(2)) {
-      return std::vector<Triangle>{mesh_.vertices(f)};
-    }
+    return table_.inFace(f).empty() && !isSplit(0) && !isSplit(1) && !isSplit(2);
+  }
+
+  Result<std::vector<Triangle>> refineFace(FaceId f) const {
     const FaceFrame frame(mesh_, f);
     std::vector<Node> nodes = table_.nodesOf(frame);
     std::sort(nodes.begin(), nodes.end());
@@ -327,14 +328,27 @@ class Refiner {
   }
 
   Result<RefinedMesh> build() {
-    std::vector<std::optional<Result<std::vector<Triangle>>>> refined(mesh_.faceCount());
-    parallelFor(mesh_.faceCount(), [&](std::size_t f) { refined[f] = refineFace(FaceId(f)); });
+    std::vector<FaceId> split;
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      if (!staysWhole(FaceId(f))) split.emplace_back(f);
+    }
+    std::vector<std::optional<Result<std::vector<Triangle>>>> refined(split.size());
+    parallelFor(split.size(), [&](std::size_t i) { refined[i] = refineFace(split[i]); });
     std::vector<Triangle> triangles;
     std::vector<FaceId> sources;
-    for (std::size_t f = 0; f < refined.size(); ++f) {
-      if (!*refined[f]) return refined[f]->error();
-      triangles.insert(triangles.end(), (*refined[f])->begin(), (*refined[f])->end());
-      sources.insert(sources.end(), (*refined[f])->size(), FaceId(f));
+    triangles.reserve(mesh_.faceCount() + 6 * split.size());
+    sources.reserve(mesh_.faceCount() + 6 * split.size());
+    std::size_t next = 0;
+    for (std::size_t f = 0; f < mesh_.faceCount(); ++f) {
+      if (next == split.size() || split[next] != FaceId(f)) {
+        triangles.push_back(mesh_.vertices(FaceId(f)));
+        sources.emplace_back(f);
+        continue;
+      }
+      const Result<std::vector<Triangle>>& parts = *refined[next++];
+      if (!parts) return parts.error();
+      triangles.insert(triangles.end(), parts->begin(), parts->end());
+      sources.insert(sources.end(), parts->size(), FaceId(f));
     }
     std::vector<Eigen::Vector3d> positions;
     positions.reserve(nodes_.size());
