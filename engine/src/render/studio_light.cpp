@@ -13,7 +13,7 @@ namespace {
 using Eigen::Vector3d;
 using Eigen::Vector3f;
 
-constexpr std::size_t kRays = 1'000'000;  // for all points together
+constexpr std::size_t kRays = 500'000;  // for all points together
 constexpr std::size_t kLeastDirections = 24;
 // Grazing rays meet the facets of the surface itself.
 constexpr float kGrazing = 0.05F;
