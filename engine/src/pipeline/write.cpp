@@ -25,6 +25,26 @@ struct Product {
   std::function<Result<std::string>()> make;
 };
 
+/// The sewing sheet, for the browser and to print.
+struct SewingFiles {
+  std::string page;
+  Result<std::string> print = std::string();
+};
+
+/// @param cover  the picture that it begins with, a PNG; empty for none
+SewingFiles makeSewing(const Pattern& pattern, const std::string& cover) {
+  const SewingSheet sheet = sewingSheet(pattern);
+  SewingFiles files;
+  parallelFor(2, [&](std::size_t i) {
+    if (i == 0) {
+      files.print = writeSewingPdf(pattern, sheet, cover);
+    } else {
+      files.page = writeSewingHtml(pattern, sheet, cover);
+    }
+  });
+  return files;
+}
+
 /// The pattern with symmetric pieces as halves on folded cloth where the design wants that.
 Pattern asCut(const Pattern& pattern) {
   Pattern cutting = pattern;
@@ -35,6 +55,9 @@ Pattern asCut(const Pattern& pattern) {
   }
   return cutting;
 }
+
+/// Which of the products is the picture; it takes longest and the sewing sheet waits for it.
+constexpr std::size_t kPicture = 0;
 
 std::vector<Product> productsOf(const Pattern& pattern, const Pattern& cutting,
                                 const SheetDrawing& sheet,
@@ -96,32 +119,24 @@ Result<WrittenPattern> writePattern(const Pattern& pattern, const std::filesyste
   const std::vector<Product> products =
       productsOf(told, cutting, sheet, strains, options, progress);
   std::vector<Result<std::string>> contents(products.size(), std::string());
-  parallelFor(products.size(), [&](std::size_t i) { contents[i] = products[i].make(); });
+  SewingFiles sewing;
+  parallelFor(products.size(), [&](std::size_t i) {
+    contents[i] = products[i].make();
+    if (i != kPicture || isCancelled(progress)) return;
+    sewing = makeSewing(told, contents[i] ? *contents[i] : std::string());
+  });
   if (isCancelled(progress)) {
     return Error{ErrorCode::Cancelled, "stopped before the end; nothing was written", {}};
   }
-
-  // The sewing sheet shows the picture.
-  const SewingSheet sewing = sewingSheet(told);
-  const std::string cover = contents.front() ? *contents.front() : std::string();
-  std::string sewingPage;
-  Result<std::string> sewingPrint = std::string();
-  parallelFor(2, [&](std::size_t i) {
-    if (i == 0) {
-      sewingPrint = writeSewingPdf(told, sewing, cover);
-    } else {
-      sewingPage = writeSewingHtml(told, sewing, cover);
-    }
-  });
-  if (!sewingPrint) return sewingPrint.error().during("sewing.pdf");
+  if (!sewing.print) return sewing.print.error().during("sewing.pdf");
 
   WrittenPattern written;
   FileSet files;
   files.add("pattern.dxf", dxf.text);
   written.files.push_back({folder / "pattern.dxf", "cutting file for CAD and cutting machines"});
-  files.add("sewing.html", std::move(sewingPage));
+  files.add("sewing.html", std::move(sewing.page));
   written.files.push_back({folder / "sewing.html", "what to sew in which order, for the browser"});
-  files.add("sewing.pdf", *std::move(sewingPrint));
+  files.add("sewing.pdf", *std::move(sewing.print));
   written.files.push_back({folder / "sewing.pdf", "the same to print"});
   for (std::size_t i = 0; i < products.size(); ++i) {
     if (!contents[i]) return contents[i].error().during(products[i].name);
