@@ -30,15 +30,25 @@ struct Deleter {
   }
 };
 
+using Surface = std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>>;
+using Context = std::unique_ptr<cairo_t, Deleter<cairo_destroy>>;
+
+/// A drawing apart, and where its box's zero point was when it was made.
+struct Recorded {
+  Surface surface;
+  Eigen::Vector2d origin;
+};
+
 }  // namespace
 
 struct PdfCanvas::State {
   std::string bytes;
-  std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> surface;
-  std::unique_ptr<cairo_t, Deleter<cairo_destroy>> cairo;
+  Surface surface;
+  Context cairo;
   std::unique_ptr<PangoLayout, Deleter<g_object_unref>> layout;
   std::unique_ptr<PangoFontDescription, Deleter<pango_font_description_free>> font;
   std::vector<PngImage> images;
+  std::vector<Recorded> recorded;
 };
 
 PdfCanvas::PdfCanvas() : state_(std::make_unique<State>()) {
@@ -237,6 +247,32 @@ void PdfCanvas::fill(const std::vector<Points2>& loops, const Ink& ink) {
   cairo_fill(cairo);
 }
 
+std::size_t PdfCanvas::record(const Box2& box, const std::function<void()>& draw) {
+  State& s = *state_;
+  const Eigen::Vector2d corner = toPage({box.min.x(), box.max.y()});
+  const Eigen::Vector2d size = kPointsPerMm * box.size();
+  const cairo_rectangle_t extent{corner.x(), corner.y(), size.x(), size.y()};
+  Surface surface(cairo_recording_surface_create(CAIRO_CONTENT_COLOR_ALPHA, &extent));
+  Context apart(cairo_create(surface.get()));
+  cairo_set_line_join(apart.get(), cairo_get_line_join(s.cairo.get()));
+  cairo_set_line_cap(apart.get(), cairo_get_line_cap(s.cairo.get()));
+  std::swap(s.cairo, apart);
+  draw();
+  std::swap(s.cairo, apart);
+  s.recorded.push_back({std::move(surface), toPage({0, 0})});
+  return s.recorded.size() - 1;
+}
+
+void PdfCanvas::place(std::size_t recorded, const Eigen::Vector2d& shift) {
+  cairo_t* cairo = state_->cairo.get();
+  const Recorded& drawing = state_->recorded[recorded];
+  const Eigen::Vector2d by = toPage(shift) - drawing.origin;
+  cairo_save(cairo);
+  cairo_set_source_surface(cairo, drawing.surface.get(), by.x(), by.y());
+  cairo_paint(cairo);
+  cairo_restore(cairo);
+}
+
 double PdfCanvas::image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,
                         double mostHeight) {
   std::optional<PngImage> picture = parsePng(png);
@@ -248,8 +284,7 @@ double PdfCanvas::image(std::string_view png, const Eigen::Vector2d& upperLeft, 
   State& s = *state_;
   const int columns = kFirstStandIn + static_cast<int>(s.images.size());
   s.images.push_back(*std::move(picture));
-  const std::unique_ptr<cairo_surface_t, Deleter<cairo_surface_destroy>> standIn(
-      cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, 1));
+  const Surface standIn(cairo_image_surface_create(CAIRO_FORMAT_RGB24, columns, 1));
   cairo_t* cairo = s.cairo.get();
   const Eigen::Vector2d corner = toPage(upperLeft);
   cairo_save(cairo);

@@ -2,6 +2,8 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
+#include <functional>
 #include <memory>
 #include <string>
 #include <string_view>
@@ -45,6 +47,10 @@ class PdfCanvas {
 
   /// Polygons by the even-odd rule, without a rim.
   void fill(const std::vector<Points2>& loops, const Ink& ink);
+  /// Keeps what `draw` draws into the box, to be placed as often as wanted: the file holds it once.
+  /// @return its number, for place()
+  std::size_t record(const Box2& box, const std::function<void()>& draw);
+  void place(std::size_t recorded, const Eigen::Vector2d& shift);
   /// A PNG of 8-bit red, green and blue with its upper left corner there, as large as fits.
   /// @return the height used, mm; 0 where the bytes are no picture
   double image(std::string_view png, const Eigen::Vector2d& upperLeft, double width,

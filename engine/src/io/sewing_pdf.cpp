@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <span>
 
 #include "io/file_date.h"
@@ -113,23 +114,42 @@ class Writer {
           false);
   }
 
+  /// What figures from one side share: below the piece the model, above it shades and lines.
+  struct Figure {
+    std::size_t below = 0, above = 0;
+  };
+  Figure recordFigure(const BodyView& view, double scale) {
+    const Box2 box{Vector2d::Zero(), scale * view.size};
+    Figure figure;
+    figure.below = canvas_.record(box, [&] {
+      canvas_.fill(scaled(view.body, scale), {0.91, 0.91, 0.9});
+    });
+    figure.above = canvas_.record(box, [&] {
+      canvas_.fill(scaled(view.shade, scale), kShadow);
+      canvas_.fill(scaled(view.deepShade, scale), kShadow);
+      for (const std::vector<Points2>& loops : view.pieces)
+        for (const Points2& loop : scaled(loops, scale)) canvas_.line(loop, true, {0.08, {}}, 0.45);
+    });
+    return figure;
+  }
+  static std::vector<Points2> scaled(std::vector<Points2> loops, double scale,
+                                     const Vector2d& shift = Vector2d::Zero()) {
+    for (Points2& loop : loops)
+      for (Vector2d& p : loop) p = shift + scale * p;
+    return loops;
+  }
+
   /// The model in small with one piece filled.
   void drawFigure(std::size_t piece, const Vector2d& corner, double width, double height) {
-    const BodyView& view = sheet_.body.views[sheet_.body.viewOf[piece]];
+    const std::size_t side = sheet_.body.viewOf[piece];
+    const BodyView& view = sheet_.body.views[side];
     const double scale = std::min(width / view.size.x(), height / view.size.y());
     const Vector2d at = corner + 0.5 * (Vector2d(width, height) - scale * view.size);
-    const auto small = [&](std::vector<Points2> loops) {
-      for (Points2& loop : loops)
-        for (Vector2d& p : loop) p = at + scale * p;
-      return loops;
-    };
-    const std::vector<Points2> own = small(view.pieces[piece]);
-    canvas_.fill(small(view.body), {0.91, 0.91, 0.9});
+    if (!figures_.contains(side)) figures_[side] = recordFigure(view, scale);
+    const std::vector<Points2> own = scaled(view.pieces[piece], scale, at);
+    canvas_.place(figures_[side].below, at);
     canvas_.fill(own, {0.93, 0.66, 0.25});
-    canvas_.fill(small(view.shade), kShadow);
-    canvas_.fill(small(view.deepShade), kShadow);
-    for (const std::vector<Points2>& loops : view.pieces)
-      for (const Points2& loop : small(loops)) canvas_.line(loop, true, {0.08, {}}, 0.45);
+    canvas_.place(figures_[side].above, at);
     for (const Points2& loop : own) canvas_.line(loop, true, {0.25, {}}, 0.15);
   }
 
@@ -152,14 +172,16 @@ class Writer {
       canvas_.textFromLeft({x, y_ + 14}, 3.4, fmt::format("{}  {}", piece.number, piece.name), true,
                            kWide);
       canvas_.textFromLeft(
-          {x, y_ + 9.5}, 3,
+          {x, y_ + 10}, 3,
           fmt::format("cut {}{}", piece.count, piece.fabric.empty() ? "" : ", " + piece.fabric),
           false, kWide);
       canvas_.textFromLeft(
-          {x, y_ + 5}, 3,
-          fmt::format("{:.0f} cm\u00b2, {:.0f} mm round, from {}", sheet_.area[i] / 100,
-                      sheet_.length[i], sheet_.body.views[sheet_.body.viewOf[i]].from),
+          {x, y_ + 6}, 3,
+          fmt::format("{:.0f} cm\u00b2, {:.0f} mm round", sheet_.area[i] / 100, sheet_.length[i]),
           false, kWide);
+      canvas_.textFromLeft(
+          {x, y_ + 2}, 3,
+          fmt::format("seen from {}", sheet_.body.views[sheet_.body.viewOf[i]].from), false, kWide);
     }
   }
 
@@ -210,6 +232,7 @@ class Writer {
   const Pattern& pattern_;
   const SewingSheet& sheet_;
   PdfCanvas canvas_;
+  std::map<std::size_t, Figure> figures_;  ///< by the side they are seen from
   double y_ = 0;
   int page_ = 0;
 };
