@@ -99,6 +99,8 @@ void Trace::answered(const PatternAnswer& answer) {
   if (move == moves_.end() || !answer.pattern) return;
   previewSince_ = move->second;
   moves_.erase(move);
+  // The pane repaints itself before this is told; the next event may be another move.
+  if (patternPainted_) shown();
 }
 
 void Trace::patternChanged() {
