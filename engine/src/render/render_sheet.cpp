@@ -344,7 +344,12 @@ void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& fra
                       const StrainField& field) {
   constexpr int kShades = 41;
   const double least = field.least();
-  const double length = 0.30 * box.width;
+  const std::array<std::string, 2> ends = field.ends();
+  const TextBlock less(cairo, ends[0], 10 * frame.scale, false);
+  const TextBlock more(cairo, ends[1], 10 * frame.scale, false);
+  constexpr double kBetweenWords = 12;
+  const double length =
+      std::max(0.30 * box.width, less.size().x() + more.size().x() + kBetweenWords * frame.scale);
   const double left = box.x + kMargin * frame.scale;
   const double y = box.y + box.height - 30 * frame.scale;
   for (int i = 0; i < kShades; ++i) {
@@ -353,9 +358,6 @@ void drawStrainLegend(cairo_t* cairo, const PixelBox& box, const SheetFrame& fra
     cairo_fill(cairo);
   }
   setColour(cairo, kSecondText);
-  const std::array<std::string, 2> ends = field.ends();
-  const TextBlock less(cairo, ends[0], 10 * frame.scale, false);
-  const TextBlock more(cairo, ends[1], 10 * frame.scale, false);
   less.draw(cairo, left, y - 4 * frame.scale);
   more.draw(cairo, left + length - more.size().x(), y - 4 * frame.scale);
   const std::optional<double> limit = field.onlyLimit();
