@@ -13,9 +13,9 @@
 #include <algorithm>
 
 #include "app/icons.h"
-#include "app/number_field.h"
 #include "app/palette.h"
 #include "panels/rows.h"
+#include "toile/design/finish_limits.h"
 
 namespace toile::studio {
 
@@ -131,14 +131,13 @@ void FabricPanel::rebuild() {
 }
 
 void FabricPanel::addOptional(QFormLayout& form, const QString& word, const QString& name,
-                              bool isLength, std::optional<double> value,
+                              const Bounds& bounds, std::optional<double> value,
                               const std::function<void(Fabric&, std::optional<double>)>& set) {
-  auto* field = new NumberField(isLength ? NumberField::Kind::Length : NumberField::Kind::Share,
-                                session_.unit());
+  auto* field = new NumberField(bounds.kind, session_.unit());
   field->setObjectName(name);
   field->setAccessibleName(word);
-  field->setRange(0, isLength ? 1e5 : 10);
-  field->setOptional(isLength ? tr("not said") : tr("no limit"));
+  field->setRange(bounds.low, bounds.high);
+  field->setOptional(bounds.kind == NumberField::Kind::Length ? tr("not said") : tr("no limit"));
   if (value) {
     field->setValue(*value);
   } else {
@@ -182,8 +181,8 @@ void FabricPanel::addFields(QFormLayout& form, const Fabric& fabric) {
       {tr("Stretch across"), "stretchAcross", &Fabric::stretchAcross},
       {tr("Shear"), "shear", &Fabric::shear}};
   for (const auto& [word, id, member] : limits) {
-    addOptional(form, word, QString::fromLatin1(id), false, share(fabric.*member),
-                [member = member](Fabric& f, std::optional<double> value) {
+    addOptional(form, word, QString::fromLatin1(id), {NumberField::Kind::Share, 0, 10},
+                share(fabric.*member), [member = member](Fabric& f, std::optional<double> value) {
                   f.*member = value ? std::optional(Ratio::of(*value)) : std::nullopt;
                 });
   }
@@ -218,11 +217,11 @@ void FabricPanel::addFields(QFormLayout& form, const Fabric& fabric) {
   const auto lengthOf = [](std::optional<double> mm) {
     return mm ? std::optional(Length::mm(*mm)) : std::nullopt;
   };
-  addOptional(form, tr("Width of the roll"), QStringLiteral("rollWidth"), true,
-              length(fabric.rollWidth),
+  addOptional(form, tr("Width of the roll"), QStringLiteral("rollWidth"),
+              {NumberField::Kind::Length, 1, 1e5}, length(fabric.rollWidth),
               [lengthOf](Fabric& f, std::optional<double> mm) { f.rollWidth = lengthOf(mm); });
-  addOptional(form, tr("Seam allowance"), QStringLiteral("fabricAllowance"), true,
-              length(fabric.allowance),
+  addOptional(form, tr("Seam allowance"), QStringLiteral("fabricAllowance"),
+              {NumberField::Kind::Length, 0, kMostAllowance.mm()}, length(fabric.allowance),
               [lengthOf](Fabric& f, std::optional<double> mm) { f.allowance = lengthOf(mm); });
   auto* turns = new QComboBox;
   turns->setAccessibleName(tr("How pieces may lie"));

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "app/number_field.h"
 #include "app/session.h"
 
 class QComboBox;
@@ -26,10 +27,15 @@ class FabricPanel final : public QWidget {
   void ended();
 
  private:
+  /// What a field takes.
+  struct Bounds {
+    NumberField::Kind kind;
+    double low, high;
+  };
   void rebuild();
   void addFields(QFormLayout& form, const Fabric& fabric);
-  void addOptional(QFormLayout& form, const QString& word, const QString& name, bool isLength,
-                   std::optional<double> value,
+  void addOptional(QFormLayout& form, const QString& word, const QString& name,
+                   const Bounds& bounds, std::optional<double> value,
                    const std::function<void(Fabric&, std::optional<double>)>& set);
   void change(const QString& step, const std::function<void(Fabric&)>& change);
   void chooseColour(const Fabric& fabric);

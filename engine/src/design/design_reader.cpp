@@ -8,6 +8,7 @@
 #include "design/single_places.h"
 #include "toile/core/file.h"
 #include "toile/design/design_file.h"
+#include "toile/design/finish_limits.h"
 
 namespace toile {
 namespace {
@@ -77,18 +78,18 @@ FinishSettings readFinish(const JsonPlace& at) {
   JsonObject object(at);
   FinishSettings finish;
   if (const auto found = object.find("allowance")) {
-    finish.allowance = detail::readLengthFrom(*found, Length());
+    finish.allowance = detail::readAllowance(*found);
   }
   if (const auto found = object.find("notchDepth")) {
-    finish.notchDepth = detail::readLengthFrom(*found, Length());
+    finish.notchDepth = detail::readLengthIn(*found, Length(), kMostNotchSize);
   }
   if (const auto found = object.find("notchSpacing")) {
-    finish.notchSpacing = detail::readLengthFrom(*found, Length(), false);
+    finish.notchSpacing = detail::readLengthIn(*found, kLeastNotchSpacing, kMostNotchSpacing);
   }
   const auto allowance = [&](std::string_view key) -> std::optional<Length> {
     const auto found = object.find(key);
     if (!found) return std::nullopt;
-    return detail::readLengthFrom(*found, Length());
+    return detail::readAllowance(*found);
   };
   finish.hemAllowance = allowance("hemAllowance");
   finish.lappedAllowance = allowance("lappedAllowance");
@@ -96,7 +97,7 @@ FinishSettings readFinish(const JsonPlace& at) {
   if (const auto found = object.find("corner")) finish.corner = found->oneOf(kCornerStyleNames);
   if (const auto found = object.find("notchKind")) finish.notchKind = found->oneOf(kNotchKindNames);
   if (const auto found = object.find("notchWidth")) {
-    finish.notchWidth = detail::readLengthFrom(*found, Length(), false);
+    finish.notchWidth = detail::readLengthIn(*found, kLeastNotchWidth, kMostNotchSize);
   }
   if (const auto found = object.find("halfOnFold")) finish.halfOnFold = found->boolean();
   finish.unknown = object.unknown();

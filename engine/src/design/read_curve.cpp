@@ -87,7 +87,7 @@ SeamSide readSide(const JsonPlace& at) {
   JsonObject object(at);
   SeamSide side;
   if (const auto allowance = object.find("allowance")) {
-    side.allowance = readLengthFrom(*allowance, Length());
+    side.allowance = readAllowance(*allowance);
   }
   if (const auto kind = object.find("kind")) side.kind = kind->oneOf(kSeamKindNames);
   if (const auto corner = object.find("corner")) side.corner = corner->oneOf(kCornerStyleNames);

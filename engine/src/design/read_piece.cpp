@@ -133,7 +133,7 @@ Fabric readFabric(const JsonPlace& at) {
     fabric.rollWidth = readLengthFrom(*width, Length(), false);
   }
   if (const auto allowance = object.find("allowance")) {
-    fabric.allowance = readLengthFrom(*allowance, Length());
+    fabric.allowance = readAllowance(*allowance);
   }
   if (const auto turns = object.find("turns")) fabric.turns = turns->oneOf(kTurnsNames);
   if (const auto ease = object.find("ease")) fabric.ease = readEase(*ease);

@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "toile/design/finish_limits.h"
+
 namespace toile::detail {
 
 std::string readId(const JsonPlace& at) {
@@ -33,6 +35,18 @@ Length readLengthFrom(const JsonPlace& at, Length least, bool orEqual) {
     at.fail(std::string("must ") + (orEqual ? "not be below " : "be above ") + toString(least));
   }
   return length;
+}
+
+Length readLengthIn(const JsonPlace& at, Length low, Length high) {
+  const Length length = readLength(at);
+  if (length < low || length > high) {
+    at.fail("must be between " + toString(low) + " and " + toString(high));
+  }
+  return length;
+}
+
+Length readAllowance(const JsonPlace& at) {
+  return readLengthIn(at, Length(), kMostAllowance);
 }
 
 Ratio readRatio(const JsonPlace& at, double low, double high) {

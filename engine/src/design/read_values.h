@@ -18,6 +18,10 @@ std::string readName(const JsonPlace& at);
 Length readLength(const JsonPlace& at);
 Length readLengthFrom(const JsonPlace& at, Length least, bool orEqual = true);
 /// low..high, both included.
+Length readLengthIn(const JsonPlace& at, Length low, Length high);
+/// Of a seam: 0..kMostAllowance.
+Length readAllowance(const JsonPlace& at);
+/// low..high, both included.
 Ratio readRatio(const JsonPlace& at, double low, double high);
 /// Any vector but the zero one.
 Eigen::Vector3d readDirection(const JsonPlace& at);

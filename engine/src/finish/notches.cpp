@@ -11,6 +11,7 @@
 #include <tuple>
 
 #include "finish/polygon.h"
+#include "toile/design/finish_limits.h"
 
 namespace toile {
 namespace {
@@ -73,7 +74,7 @@ struct SewPlace {
 class NotchChooser {
  public:
   NotchChooser(const SeamNet& net, double spacing)
-      : net_(net), spacing_(std::clamp(spacing, 20.0, 10000.0)) {
+      : net_(net), spacing_(std::clamp(spacing, kLeastNotchSpacing.mm(), kMostNotchSpacing.mm())) {
     for (const PieceInWork& piece : net.pieces()) {
       measures_.emplace_back();
       for (const Outline& loop : piece.sew.loops) measures_.back().emplace_back(loop);

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "toile/design/design.h"
+#include "toile/design/finish_limits.h"
 
 namespace toile::test {
 
@@ -53,6 +54,10 @@ class RandomDesign {
                                          1e15,   -2.5e16, 9.6e-5};
     if (chance()) return kAwkward[below(kAwkward.size())];
     return std::ldexp(fraction() - 0.5, static_cast<int>(below(40)) - 20);
+  }
+  Length within(Length low, Length high) {
+    const double mm = low.mm() + fraction() * (high.mm() - low.mm());
+    return chance() ? Length::mm(mm) : chance() ? low : high;
   }
   std::string text() {
     static const std::array<std::string, 6> kTexts{"",
@@ -156,22 +161,22 @@ class RandomDesign {
   }
   FinishSettings finish() {
     FinishSettings finish;
-    finish.allowance = Length::mm(std::abs(number()));
-    finish.notchDepth = Length::mm(std::abs(number()));
-    finish.notchSpacing = Length::mm(1e-300 + std::abs(number()));
-    if (chance()) finish.hemAllowance = Length::mm(std::abs(number()));
-    if (chance()) finish.lappedAllowance = Length::mm(std::abs(number()));
-    if (chance()) finish.openingAllowance = Length::mm(std::abs(number()));
+    finish.allowance = within(Length(), kMostAllowance);
+    finish.notchDepth = within(Length(), kMostNotchSize);
+    finish.notchSpacing = within(kLeastNotchSpacing, kMostNotchSpacing);
+    if (chance()) finish.hemAllowance = within(Length(), kMostAllowance);
+    if (chance()) finish.lappedAllowance = within(Length(), kMostAllowance);
+    if (chance()) finish.openingAllowance = within(Length(), kMostAllowance);
     finish.corner = static_cast<CornerStyle>(below(4));
     finish.notchKind = static_cast<NotchKind>(below(6));
-    if (chance()) finish.notchWidth = Length::mm(1e-300 + std::abs(number()));
+    if (chance()) finish.notchWidth = within(kLeastNotchWidth, kMostNotchSize);
     finish.halfOnFold = chance();
     finish.unknown = unknown();
     return finish;
   }
   SeamSide side() {
     SeamSide side;
-    if (chance()) side.allowance = Length::mm(std::abs(number()));
+    if (chance()) side.allowance = within(Length(), kMostAllowance);
     side.kind = static_cast<SeamKind>(below(3));
     if (chance()) side.corner = static_cast<CornerStyle>(below(4));
     side.unknown = unknown();
@@ -240,7 +245,7 @@ class RandomDesign {
     }
     fabric.thickness = Length::mm(std::abs(number()));
     if (chance()) fabric.rollWidth = Length::mm(1 + std::abs(number()));
-    if (chance()) fabric.allowance = Length::mm(std::abs(number()));
+    if (chance()) fabric.allowance = within(Length(), kMostAllowance);
     if (chance()) fabric.turns = chance() ? Turns::OneWay : Turns::Any;
     fabric.thicknessOffset = Ratio::of(fraction());
     fabric.ease = ease();
