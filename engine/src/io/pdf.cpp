@@ -282,19 +282,35 @@ class Writer {
     drawCaption(tile, pages);
   }
 
-  /// In the corner of the tile where it meets fewest lines, so that it stays when the tile is
-  /// trimmed: name, arrow up, page, whose pattern it is, pieces.
+  /// In the corner of the tile, else at the side, where it meets no text and fewest lines, so that
+  /// it stays when the tile is trimmed: name, arrow up, page, whose pattern it is, pieces.
   void drawCaption(const Tile& tile, int pages) {
     constexpr double kInsetMm = 4;
     const Vector2d size(84, 15);
     Box2 best;
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    for (const auto& [right, up] : {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {1.0, 1.0}}) {
+    // The diamond of the neighbour is in the middle of the side.
+    for (const auto& [right, up] : {std::pair{0.0, 0.0},
+                                    {0.0, 1.0},
+                                    {1.0, 0.0},
+                                    {1.0, 1.0},
+                                    {0.0, 0.1},
+                                    {0.0, 0.9},
+                                    {1.0, 0.1},
+                                    {1.0, 0.9},
+                                    {0.0, 0.2},
+                                    {0.0, 0.8},
+                                    {1.0, 0.2},
+                                    {1.0, 0.8},
+                                    {0.0, 0.3},
+                                    {0.0, 0.7},
+                                    {1.0, 0.3},
+                                    {1.0, 0.7}}) {
       const Vector2d room = tile.box.size() - size - Vector2d(2, 2) * kInsetMm;
       const Vector2d low =
           tile.box.min + Vector2d(kInsetMm + right * room.x(), kInsetMm + up * room.y());
       const Box2 box{low, low + size};
-      const std::size_t count = linesIn(box);
+      const std::size_t count = clutterIn(box);
       if (count >= fewest) continue;
       fewest = count;
       best = box;
@@ -313,8 +329,9 @@ class Writer {
     return (a.min.array() <= b.max.array()).all() && (b.min.array() <= a.max.array()).all();
   }
 
-  /// Stretches of lines, and texts, that a box meets.
-  [[nodiscard]] std::size_t linesIn(const Box2& box) const {
+  /// How many stretches of lines a box meets; a text counts as very many.
+  [[nodiscard]] std::size_t clutterIn(const Box2& box) const {
+    constexpr std::size_t kText = 1000;
     std::size_t count = 0;
     for (std::size_t i = 0; i < sheet_.pieces.size(); ++i) {
       if (!meets(boxes_[i], box)) continue;
@@ -323,9 +340,11 @@ class Writer {
         for (std::size_t k = 0; k + (line.closed ? 0 : 1) < line.points.size(); ++k)
           if (crosses(box, line.points[k], line.points[(k + 1) % line.points.size()])) ++count;
       for (const SheetText& text : piece.texts) {
-        const Vector2d half = 0.5 * estimatedWidth(text.text, text.size) *
-                              Vector2d(std::cos(text.angle), std::sin(text.angle));
-        if (crosses(box, text.position - half, text.position + half)) ++count;
+        const Vector2d along(std::cos(text.angle), std::sin(text.angle));
+        const Vector2d half = 0.5 * estimatedWidth(text.text, text.size) * along;
+        const Vector2d middle = text.position + 0.35 * text.size * Vector2d(-along.y(), along.x());
+        const Vector2d room = Vector2d::Constant(0.5 * text.size);
+        if (crosses({box.min - room, box.max + room}, middle - half, middle + half)) count += kText;
       }
     }
     return count;
