@@ -324,6 +324,7 @@ void MainWindow::makeDock() {
   side_ = new SidePanels(session_, actions_);
   column->addWidget(side_);
   tabs_ = new QTabWidget;
+  tabs_->setAccessibleName(tr("Lists"));
   auto* pieces = new PiecesList(session_);
   auto* findings = new FindingsList(session_);
   tabs_->addTab(pieces, tr("Pieces"));

@@ -107,6 +107,7 @@ void FabricPanel::rebuild() {
     form->setFieldGrowthPolicy(QFormLayout::AllNonFixedFieldsGrow);
     addFields(*form, *fabric);
     auto* scroll = new QScrollArea;
+    scroll->setAccessibleName(tr("What can be set"));
     scroll->setWidget(fields);
     scroll->setWidgetResizable(true);
     scroll->setFrameShape(QFrame::NoFrame);

@@ -24,6 +24,7 @@ SidePanels::SidePanels(Session& session, const Actions& actions, QWidget* parent
   auto* column = new QVBoxLayout(inner);
   column->setContentsMargins(0, 0, 0, 0);
   setWidget(inner);
+  setAccessibleName(tr("What is selected"));
   setWidgetResizable(true);
   setFrameShape(QFrame::NoFrame);
   setHorizontalScrollBarPolicy(Qt::ScrollBarAlwaysOff);

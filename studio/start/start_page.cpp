@@ -94,6 +94,7 @@ StartPage::StartPage(Actions& actions) {
   if (!QSettings().value(QStringLiteral("hintSeen")).toBool()) column->addWidget(makeHint());
   column->addStretch();
   auto* scroll = new QScrollArea;
+  scroll->setAccessibleName(tr("Templates and recent designs"));
   scroll->setWidgetResizable(true);
   scroll->setFrameShape(QFrame::NoFrame);
   scroll->setWidget(page);
