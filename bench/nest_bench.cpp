@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Marker sets of five trades: utilisation, how far the length stands above what the area alone
-// needs, and the time. Shoe, toy and armchair are models of TOILE_TEST_DATA cut by planes; without
-// the data they are left out. Yardstick of the same run: the first fill (effort 0).
+// Marker sets of five trades and one of 100 pieces: utilisation, how far the length stands above
+// what the area alone needs, and the time. Shoe, toy and armchair are models of TOILE_TEST_DATA cut
+// by planes; without the data they are left out. Yardstick: the first fill (effort 0).
 #include <benchmark/benchmark.h>
 
 #include <cstdlib>
@@ -98,6 +98,11 @@ MarkerSet makeSet(std::int64_t number) {
       set.options.nest.gap = 4;
       add(sectioned("toys/squirrel.ply", {{z, 0.25}, {z, 0.5}, {z, 0.75}, {x, 0.5}}));
       break;
+    case 4:
+      set.name = "five wetsuits";  // 100 pieces
+      for (const char* size : {"EU36F", "EU40F", "EU44F", "EU48M", "EU52M"})
+        add(wetsuit(std::string("builtin:body@1?size=") + size));
+      break;
     default:
       set.name = "armchair";
       add(sectioned("toys/armchair.ply", {{z, 0.2}, {z, 0.48}, {x, 0.2}, {x, 0.8}, {y, 0.5}}));
@@ -139,7 +144,7 @@ void BM_Nest(benchmark::State& state) {
   }
 }
 BENCHMARK(BM_Nest)
-    ->ArgsProduct({{0, 1, 2, 3, 4}, {0, 3, 5}})
+    ->ArgsProduct({{0, 1, 2, 3, 4, 5}, {0, 3, 5}})
     ->Iterations(1)
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
