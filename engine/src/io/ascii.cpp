@@ -69,7 +69,7 @@ std::string toPlainName(std::string_view utf8, std::size_t most) {
   }
   if (name.size() > most) name.resize(most);
   while (!name.empty() && (name.back() == '_' || name.back() == '-')) name.pop_back();
-  return name.empty() ? "X" : name;
+  return name;
 }
 
 std::string makeUnique(const std::string& name, std::size_t most, std::set<std::string>& taken) {

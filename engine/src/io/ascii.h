@@ -12,8 +12,8 @@ namespace toile {
 /// (German sharp s, o with stroke, ...), anything else and control characters as '_'.
 [[nodiscard]] std::string toAscii(std::string_view utf8);
 
-/// Upper case, only A-Z 0-9 _ -, at most `most` characters, starting with a letter or digit; never
-/// empty.
+/// Upper case, only A-Z 0-9 _ -, at most `most` characters, starting with a letter or digit; empty
+/// where nothing of the name can be written so.
 [[nodiscard]] std::string toPlainName(std::string_view utf8, std::size_t most);
 
 /// The name itself, or with its end replaced by -2, -3, ... so that it is new in `taken` (it is

@@ -116,8 +116,9 @@ class Writer {
       writer.out_ = DxfText(writer.options_.inches);
     };
     take(base);
+    std::set<std::string> takenSizes;
     for (Writer& size : sizes) {
-      size.chooseNames();
+      size.chooseNames(takenSizes);
       for (std::size_t i = 0; i < size.pattern_.pieces.size(); ++i) size.writeBlock(i);
       take(size);
     }
@@ -143,7 +144,8 @@ class Writer {
   }
 
   std::vector<std::string> blockNames() {
-    chooseNames();
+    std::set<std::string> takenSizes;
+    chooseNames(takenSizes);
     return std::move(blockNames_);
   }
 
@@ -231,19 +233,42 @@ class Writer {
     return ascii;
   }
 
-  void chooseNames() {
+  /// Whether the plain name says all that the given one does, case and punctuation aside.
+  static bool isWhole(const std::string& given, const std::string& plain) {
+    return toAscii(given) == given && toPlainName(given, given.size()) == plain;
+  }
+
+  /// What a piece is called where nothing of its name is left: by its id, which has plain letters.
+  static std::string plainNameOf(const PatternPiece& piece) {
+    std::string name = toPlainName(piece.name, kMostNameChars);
+    if (name.empty()) name = toPlainName(piece.id, kMostNameChars);
+    return name.empty() ? fmt::format("PIECE-{}", piece.number) : name;
+  }
+
+  /// `takenSizes`: by other sizes in the file; two sizes of a piece must not share a block's name.
+  void chooseSize(std::set<std::string>& takenSizes) {
+    // Some readers refuse a piece without a size.
+    const std::string& wanted = design_.order.size;
+    const std::string plain = toPlainName(wanted, kMostSizeChars);
+    size_ = makeUnique(plain.empty() ? "ONE" : plain, kMostSizeChars, takenSizes);
+    if (!wanted.empty() && !isWhole(wanted, size_))
+      findings_.push_back({"dxf-size-changed",
+                           fmt::format("the DXF calls the size \"{}\" {}: sizes there have at most "
+                                       "{} plain characters; the other files keep the name",
+                                       wanted, size_, kMostSizeChars),
+                           {}});
+  }
+
+  void chooseNames(std::set<std::string>& takenSizes) {
     const std::string style = design_.order.style.empty() ? design_.name : design_.order.style;
     style_ = plainText(style, "style", kMostNameChars);
-    // Some readers refuse a piece without a size.
-    size_ = design_.order.size.empty() ? "ONE" : toPlainName(design_.order.size, kMostSizeChars);
+    chooseSize(takenSizes);
     std::set<std::string> taken;
     for (const PatternPiece& piece : pattern_.pieces) {
-      const std::string whole = toPlainName(piece.name, 1000);
-      const std::string name =
-          makeUnique(toPlainName(piece.name, kMostNameChars), kMostNameChars, taken);
+      const std::string name = makeUnique(plainNameOf(piece), kMostNameChars, taken);
       pieceNames_.push_back(name);
       blockNames_.push_back(name + "_" + size_);
-      if (name != whole || toAscii(piece.name) != piece.name)
+      if (!isWhole(piece.name, name))
         findings_.push_back({"dxf-name-changed",
                              fmt::format("the DXF calls the piece \"{}\" {}: names there have at "
                                          "most {} plain characters and differ from each other",

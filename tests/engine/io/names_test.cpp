@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
@@ -13,6 +14,7 @@
 #include "toile/io/dxf.h"
 #include "toile/io/dxf_file.h"
 #include "toile/io/hpgl.h"
+#include "toile/io/nested.h"
 #include "toile/io/pdf.h"
 #include "toile/io/sewing_files.h"
 #include "toile/io/svg.h"
@@ -52,6 +54,51 @@ TEST_P(Names, DxfHasTwoBlocksOfPlainNames) {
               std::string::npos);
   }
   EXPECT_FALSE(dxf.findings.empty());  // the substitution is told
+}
+
+TEST(DxfNames, AreTheIdsWhereNothingOfANameIsAscii) {
+  Pattern pattern = test::makeTwoPiecePattern();
+  pattern.pieces[0].name = "\xe5\x89\x8d\xe7\x89\x87";
+  pattern.pieces[1].name = "\xe5\x90\x8e\xe7\x89\x87";
+  pattern.pieces[1].id = "--";  // an id may have no letter either
+  EXPECT_THAT(dxfBlockNames(pattern), testing::ElementsAre("ELL_M", "PIECE-2_M"));
+  std::vector<std::string> told;
+  for (const Finding& finding : writeDxf(pattern).findings)
+    if (finding.code == "dxf-name-changed") told.push_back(finding.message);
+  EXPECT_THAT(told, testing::ElementsAre(
+                        testing::AllOf(HasSubstr(pattern.pieces[0].name), HasSubstr(" ELL:")),
+                        testing::AllOf(HasSubstr(pattern.pieces[1].name), HasSubstr(" PIECE-2:"))));
+}
+
+TEST(DxfNames, OfPlainPiecesAreKeptWithoutAWord) {
+  Pattern pattern = test::makeTwoPiecePattern();
+  pattern.pieces[0].name = "front left";
+  pattern.pieces[1].name = "Back-2";
+  EXPECT_THAT(dxfBlockNames(pattern), testing::ElementsAre("FRONT_LEFT_M", "BACK-2_M"));
+  EXPECT_TRUE(writeDxf(pattern).findings.empty());
+}
+
+TEST(DxfNames, OfTwoSizesDiffer) {
+  std::array<Pattern, 3> patterns;
+  std::vector<NestedSize> sizes;
+  for (std::size_t i = 0; i < patterns.size(); ++i) {
+    patterns[i] = test::makeTwoPiecePattern();
+    Design design = *patterns[i].document.design;
+    design.order.size = std::array{"\xe5\xa4\xa7", "\xe5\xb0\x8f", "42"}[i];
+    patterns[i].document.design = std::make_shared<const Design>(design);
+    sizes.push_back({design.order.size, &patterns[i], i == 0});
+  }
+  const DxfFile dxf = writeNestedDxf(sizes);
+  const Result<DxfDrawing> drawing = readDxf(dxf.text);
+  ASSERT_TRUE(drawing) << drawing.error();
+  std::set<std::string> names;
+  for (const DxfBlock& block : drawing->blocks) names.insert(block.name);
+  EXPECT_THAT(names, testing::ElementsAre("ELL_42", "ELL_ONE", "ELL_ONE-2", "PANEL_42", "PANEL_ONE",
+                                          "PANEL_ONE-2"));
+  std::size_t told = 0;
+  for (const Finding& finding : dxf.findings)
+    if (finding.code == "dxf-size-changed") ++told;
+  EXPECT_EQ(told, 2u);
 }
 
 TEST_P(Names, XmlJsonAndTablesStayWellFormed) {
