@@ -102,17 +102,25 @@ class Article {
   [[nodiscard]] SewStep::Kind kindOf(std::size_t a, std::size_t b) const {
     const std::size_t i = loopOf(a);
     const std::size_t j = loopOf(b);
-    if (loops_[i].part != loops_[j].part) return SewStep::Kind::Flat;
-    if (i != j) return SewStep::Kind::Tube;
-    // Neighbours close like a dart; others part the boundary in two.
-    const std::vector<std::size_t>& cycle = loops_[i].cycle;
-    const std::size_t count = cycle.size();
-    const std::size_t at = place(i, a);
-    const bool isNext = cycle[(at + 1) % count] == b || cycle[(at + count - 1) % count] == b;
-    return isNext ? SewStep::Kind::Flat : SewStep::Kind::Tube;
+    const bool isFlat = !tubes_.contains(loops_[i].part) && !tubes_.contains(loops_[j].part);
+    return isFlat && goesOn(a, b) ? SewStep::Kind::Flat : SewStep::Kind::Tube;
   }
 
-  void sew(std::size_t a, std::size_t b) {
+  /// Whether sewing the two edges joins two parts, or closes a border from the end of a seam on, as
+  /// a dart does. What does neither closes a tube: it parts a border in two, or joins two borders
+  /// of a part, or leaves nothing of a border open.
+  [[nodiscard]] bool goesOn(std::size_t a, std::size_t b) const {
+    const std::size_t i = loopOf(a);
+    const std::size_t j = loopOf(b);
+    if (loops_[i].part != loops_[j].part) return true;
+    const std::vector<std::size_t>& cycle = loops_[i].cycle;
+    const std::size_t count = cycle.size();
+    if (i != j || count == 2) return false;
+    const std::size_t at = place(i, a);
+    return cycle[(at + 1) % count] == b || cycle[(at + count - 1) % count] == b;
+  }
+
+  void sew(std::size_t a, std::size_t b, SewStep::Kind kind) {
     const std::size_t i = loopOf(a);
     const std::size_t j = loopOf(b);
     std::vector<std::size_t> afterA = turned(i, a);
@@ -129,7 +137,9 @@ class Article {
       for (Loop& loop : loops_)
         if (loop.part == joined) loop.part = part;
       loops_[j].cycle.clear();
+      if (tubes_.contains(joined)) tubes_.insert(part);
     }
+    if (kind == SewStep::Kind::Tube || kind == SewStep::Kind::Round) tubes_.insert(loops_[i].part);
     loops_[i].cycle = std::move(afterA);
   }
 
@@ -158,6 +168,7 @@ class Article {
   }
 
   std::vector<Loop> loops_;
+  std::set<std::size_t> tubes_;  ///< parts that no longer lie flat
 };
 
 std::vector<SewEdge> sewnEdges(const Pattern& pattern) {
@@ -238,14 +249,15 @@ SewingPlan planSewing(const Pattern& pattern) {
     for (auto it = waiting.begin(); it != waiting.end(); ++it) {
       if (anyFree && !isFree(it->first)) continue;
       it->second.kind = kindOf(it->second);
-      const auto rank = [](const SewStep& step) {
-        return std::make_tuple(step.kind, -step.length);
+      // On a tube, first on from the end of what is sewn.
+      const auto rank = [&article](const SewStep& step) {
+        return std::make_tuple(step.kind, !article.goesOn(step.edgeA, step.edgeB), -step.length);
       };
       if (best == waiting.end() || rank(it->second) < rank(best->second)) best = it;
     }
     SewStep step = best->second;
     step.minutes = minutesOf(step.kind, step.length);
-    article.sew(step.edgeA, step.edgeB);
+    article.sew(step.edgeA, step.edgeB, step.kind);
     plan.totalLength += step.length;
     plan.minutes += step.minutes;
     plan.steps.push_back(step);

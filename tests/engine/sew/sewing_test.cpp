@@ -4,6 +4,8 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <array>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <set>
 
@@ -52,6 +54,64 @@ TEST_F(SleeveSewing, SewsEverySeamOnceAndFlatBeforeTube) {
   // Two pieces with two seams make a tube: the first is sewn flat, the second closes it.
   EXPECT_EQ(plan.steps.front().kind, SewStep::Kind::Flat);
   EXPECT_EQ(plan.steps.back().kind, SewStep::Kind::Tube);
+}
+
+class WetsuitSewing : public test::WetsuitPattern {};
+
+/// A place of the article: the pieces' corners that sewing has joined.
+class Joined {
+ public:
+  using Corner = std::array<std::size_t, 3>;  ///< piece, loop, point
+
+  Corner find(const Corner& corner) const {
+    Corner at = corner;
+    for (auto next = up_.find(at); next != up_.end(); next = up_.find(at)) at = next->second;
+    return at;
+  }
+  /// @return whether they were apart
+  bool join(const Corner& a, const Corner& b) {
+    if (find(a) == find(b)) return false;
+    up_[find(a)] = find(b);
+    return true;
+  }
+
+ private:
+  std::map<Corner, Corner> up_;
+};
+
+/// By the Euler characteristic of what is sewn: two ends that were apart become one where parts are
+/// joined (both ends) and where neighbours are closed (one). Whatever changes it makes a tube.
+TEST_F(WetsuitSewing, IsFlatUntilTheFirstTube) {
+  const SewingPlan plan = planSewing(*pattern_);
+  ASSERT_EQ(plan.steps.size() * 2, plan.edges.size());
+  const auto ends = [&](std::uint32_t e) {
+    const SewEdge& edge = plan.edges[e];
+    const PatternPiece& piece = pattern_->pieces[edge.piece];
+    const OutlineRun& first = piece.runs[edge.runs.front()];
+    const OutlineRun& last = piece.runs[edge.runs.back()];
+    const std::size_t count = piece.sewLines[first.loop].size();
+    return std::array<Joined::Corner, 2>{
+        {{edge.piece, first.loop, first.first},
+         {edge.piece, last.loop, (last.first + last.edgeCount) % count}}};
+  };
+  Joined corners;
+  Joined parts;
+  std::size_t flat = 0;
+  for (const SewStep& step : plan.steps) {
+    if (step.kind > SewStep::Kind::Flat) break;
+    const auto a = ends(step.edgeA);
+    const auto b = ends(step.edgeB);
+    const int met = corners.join(a[0], b[1]) + corners.join(a[1], b[0]);
+    const bool areTwo =
+        parts.join({plan.edges[step.edgeA].piece, 0, 0}, {plan.edges[step.edgeB].piece, 0, 0});
+    EXPECT_EQ(met, areTwo ? 2 : 1) << plan.edges[step.edgeA].code;
+    ++flat;
+  }
+  // All pieces but one are joined flat before anything is closed.
+  EXPECT_GE(flat, pattern_->pieces.size() - 1);
+  for (std::size_t i = flat; i < plan.steps.size(); ++i)
+    EXPECT_GT(plan.steps[i].kind, SewStep::Kind::Flat) << "step " << i + 1;
+  ASSERT_LT(flat, plan.steps.size());
 }
 
 TEST_F(SleeveSewing, ContractKeepsBodyTargetPatternAndMate) {

@@ -32,8 +32,8 @@ struct SewStep {
   std::uint32_t edgeA = 0, edgeB = 0;  ///< of SewingPlan::edges; A runs along its piece's outline
   enum class Kind {
     Dart,  ///< within one piece, first
-    Flat,  ///< joins two parts, or neighbouring edges of one: can be sewn lying flat
-    Tube,  ///< closes what is joined already to a tube
+    Flat,  ///< joins two parts, or neighbouring edges of one, that lie flat
+    Tube,  ///< closes what is joined already to a tube, or goes on along a tube
     Round  ///< a ring into a ring: a sleeve into its armhole
   } kind = Kind::Flat;
   double length = 0;   ///< mm, the longer side
