@@ -96,7 +96,8 @@ QTabBar::tab { background: transparent; color: @second; padding: 8px 12px; borde
 QTabBar::tab:selected { color: @text; font-weight: 600; border-bottom: 2px solid @accent; }
 QTabBar::tab:focus { border: 2px solid @accent; }
 QListView, QTreeView, QTableView { background: @panel; border: 0; outline: 0; }
-QListView::item, QTreeView::item { min-height: 30px; padding: 0 8px; color: @text; }
+QListView::item, QTreeView::item { min-height: 30px; border: 0; padding: 0 8px; }
+QListView#findings::item { padding: 0; }
 QListView::item:hover, QTreeView::item:hover { background: @hover; }
 QListView::item:selected, QTreeView::item:selected { background: @accentSoft; color: @text; }
 QStatusBar { border-top: 1px solid @divider; min-height: 28px; }

@@ -34,6 +34,9 @@ std::vector<std::string> named(const std::vector<Element>& where, Element::Kind 
 Cure cutOpen(const std::string& piece) {
   return {Cure::Kind::CutOpen, Words::tr("Cut it open the shortest way"), {piece}};
 }
+Cure dartsThatOpen(const std::string& piece) {
+  return {Cure::Kind::Darts, Words::tr("Look for darts that open it"), {piece}};
+}
 Cure leaveOut(const Pattern& pattern, const std::string& piece) {
   return {Cure::Kind::LeaveOut, Words::tr("Leave %1 out").arg(nameOf(pattern, piece)), {piece}};
 }
@@ -86,6 +89,8 @@ std::vector<Cure> curesOf(const Pattern& pattern, const std::string& code,
                      {pieces.begin() + 1, pieces.end()}});
   } else if (code == "layout-hand-overlap") {
     cures.push_back({Cure::Kind::BackInPlace, Words::tr("Put them back in their places"), pieces});
+  } else if (code == "kept-apart") {
+    cures = {dartsThatOpen(pieces.front())};
   } else if (code == "high-strain" || code == "over-limit") {
     cures.push_back({Cure::Kind::Darts, Words::tr("Look for darts"), {pieces.front()}});
     cures.push_back({Cure::Kind::Developable, Words::tr("Flatten the shape"), {pieces.front()}});
@@ -100,8 +105,7 @@ std::vector<Cure> curesOf(const Pattern& pattern, std::size_t index, const Error
     return {cutOpen(piece.id), leaveOut(pattern, piece.id)};
   }
   if (failure.code == ErrorCode::NotConverged) {
-    return {{Cure::Kind::Darts, Words::tr("Look for darts that open it"), {piece.id}},
-            leaveOut(pattern, piece.id)};
+    return {dartsThatOpen(piece.id), leaveOut(pattern, piece.id)};
   }
   return {leaveOut(pattern, piece.id)};
 }

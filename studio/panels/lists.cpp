@@ -61,8 +61,10 @@ void PiecesList::refill() {
       QPixmap swatch(14, 14);
       swatch.fill(isMade ? pieceTint(*pattern, i, session_.pieceColours())
                          : studio::palette().divider);
+      QIcon cloth(swatch);
+      cloth.addPixmap(swatch, QIcon::Selected);  // the colour of a cloth stays what it is
       auto* item = new QListWidgetItem(
-          isMade || !piece.include ? QIcon(swatch)
+          isMade || !piece.include ? cloth
                                    : icon(QStringLiteral("warn"), studio::palette().attention),
           text, this);
       item->setData(kId, QString::fromStdString(piece.id));

@@ -32,14 +32,14 @@ std::vector<NavigationPreset> allPresets() {
 
 const std::vector<Qt::KeyboardModifiers>& allModifiers() {
   static const std::vector<Qt::KeyboardModifiers> all = {
-      kNone,        kShift,      kCtrl,         kAlt, kShift | kCtrl, kShift | kAlt, kCtrl | kAlt,
-      kShift | kCtrl | kAlt};
+      kNone,          kShift,        kCtrl,        kAlt,
+      kShift | kCtrl, kShift | kAlt, kCtrl | kAlt, kShift | kCtrl | kAlt};
   return all;
 }
 
 /// Everything that a hand with these buttons can do where a tool wants the press for itself.
-std::set<ViewGesture> within(NavigationPreset preset, std::initializer_list<Qt::MouseButton> buttons,
-                             bool space) {
+std::set<ViewGesture> within(NavigationPreset preset,
+                             std::initializer_list<Qt::MouseButton> buttons, bool space) {
   std::set<ViewGesture> all;
   for (const Qt::MouseButton button : buttons) {
     for (const auto modifiers : allModifiers()) {
@@ -149,9 +149,9 @@ TEST(Camera, ZoomEndsInBothDirectionsAndStillKeepsThePoint) {
   Camera near = someCameras().front(), far = near;
   const Vector2d pixel(100, 600);
   const Screen screen = screenOf(near);
-  const Vector3d below = screen.rayAt(pixel).origin +
-                         (near.view().eye - near.target).norm() / 0.97 *
-                             screen.rayAt(pixel).direction.normalized();
+  const Vector3d below =
+      screen.rayAt(pixel).origin +
+      (near.view().eye - near.target).norm() / 0.97 * screen.rayAt(pixel).direction.normalized();
   for (int i = 0; i < 200; ++i) near = zoomed(near, 1.2, pixel, screenOf(near));
   for (int i = 0; i < 200; ++i) far = zoomed(far, 1 / 1.2, pixel, screenOf(far));
   EXPECT_GE(near.height, 1);
@@ -225,9 +225,9 @@ TEST(Camera, LooksStraightAtAPieceFromAnySide) {
     if (i == 0) normal = {0, 0, 3};
     if (i == 1) normal = {0, 0, -0.5};
     const Vector3d low(-40, 10, 800), high(120, 60, 1000);
-    const Camera camera = fitted(lookingAlong(someCameras()[static_cast<std::size_t>(i) % 24],
-                                              normal),
-                                 low, high, 900.0 / 700);
+    const Camera camera =
+        fitted(lookingAlong(someCameras()[static_cast<std::size_t>(i) % 24], normal), low, high,
+               900.0 / 700);
     const View view = camera.view();
     const Vector3d towards = (view.target - view.eye).normalized();
     EXPECT_LT((towards + normal.normalized()).norm(), 1e-9);

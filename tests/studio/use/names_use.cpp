@@ -64,15 +64,14 @@ bool isWorked(const QWidget& widget) {
 void check(QWidget& widget, const char* where) {
   if (!widget.isVisible() || isInner(widget) || !isWorked(widget)) return;
   ++seen;
-  const QString what = QStringLiteral("%1: %2 \"%3\" in %4")
-                           .arg(QString::fromLatin1(where),
-                                QString::fromLatin1(widget.metaObject()->className()),
-                                widget.objectName(),
-                                widget.parentWidget() == nullptr
-                                    ? QString()
-                                    : QString::fromLatin1(
-                                          widget.parentWidget()->metaObject()->className()) +
-                                          ' ' + widget.parentWidget()->objectName());
+  const QString what =
+      QStringLiteral("%1: %2 \"%3\" in %4")
+          .arg(QString::fromLatin1(where), QString::fromLatin1(widget.metaObject()->className()),
+               widget.objectName(),
+               widget.parentWidget() == nullptr
+                   ? QString()
+                   : QString::fromLatin1(widget.parentWidget()->metaObject()->className()) + ' ' +
+                         widget.parentWidget()->objectName());
   if (nameOf(widget).isEmpty()) faults.insert(what + QStringLiteral(" has no name"));
   const auto* button = qobject_cast<const QAbstractButton*>(&widget);
   if (button == nullptr || button->toolTip().size() > 0) return;
@@ -144,8 +143,8 @@ void dialogs(MainWindow& window) {
   unit.show();
   checkAll(unit, "unit");
   unit.hide();
-  ExportDialog files(window.session().pattern(), QStringLiteral("vest"), window.viewport().picture(),
-                     &window);
+  ExportDialog files(window.session().pattern(), QStringLiteral("vest"),
+                     window.viewport().picture(), &window);
   files.show();
   for (int i = 0; i < 1200 && !files.isReady(); ++i) wait(50);
   require(files.isReady(), "the files are made");
