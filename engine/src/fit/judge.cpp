@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
+#include <optional>
 
+#include "fit/missing_parts.h"
 #include "fit/segments.h"
 #include "mesh/bounding_tree.h"
 #include "mesh/triangle_queries.h"
@@ -31,6 +33,16 @@ constexpr double kUnsure = 1.15;
 /// A region of which a twentieth is that many times the mean's limit off is told.
 constexpr double kRegionOff = 3;
 constexpr double kJustMissed = 1.001;
+/// A region of which so much has no scan is not there, and a part that reaches so far and is such a
+/// share of the whole. Crowns, soles and armpits reach 0.5 at most.
+constexpr double kRegionGone = 0.6;
+constexpr double kReach = 1;
+constexpr double kPartShare = 0.005;
+/// A limb so much smaller than the other one was drawn together over a closed stump.
+constexpr double kShrunk = 0.5;
+/// From so much on it is told what was filled in.
+constexpr double kFilledIn = 0.1;
+constexpr double kPartGone = 2;  // told after a scan that is nothing of the kind
 
 struct Foot {
   std::uint32_t face = 0;
@@ -169,6 +181,74 @@ class Judge {
                                  summarise(distances[r], areas[r]),
                                  total[r] > 0 ? missing[r] / total[r] : 0});
     }
+    areaOfRegion_ = std::move(total);
+  }
+
+  [[nodiscard]] std::optional<std::size_t> otherSide(std::size_t region) const {
+    std::string name = report_.regions[region].name;
+    if (name.starts_with("left ")) {
+      name = "right " + name.substr(5);
+    } else if (name.starts_with("right ")) {
+      name = "left " + name.substr(6);
+    } else {
+      return std::nullopt;
+    }
+    for (std::size_t r = 0; r < report_.regions.size(); ++r) {
+      if (report_.regions[r].name == name) return r;
+    }
+    return std::nullopt;
+  }
+
+  /// Of a body by its regions, and whatever sticks out; elsewhere by what sticks out alone.
+  void findMissing() {
+    std::vector<char> isGone(report_.regions.size(), 0);
+    std::string places;
+    std::vector<Element> where;
+    const bool isBody = !fit_.regionOfVertex.empty();
+    for (std::size_t r = 0; isBody && r < report_.regions.size(); ++r) {
+      const std::optional<std::size_t> other = otherSide(r);
+      const bool isShrunk = other && areaOfRegion_[r] < kShrunk * areaOfRegion_[*other];
+      if (report_.regions[r].missingShare > kRegionGone || isShrunk) isGone[r] = 1;
+    }
+    for (const MissingPart& part : findMissingParts(fit_.mesh, isMissing_)) {
+      if (part.area < kPartShare * shape_.totalArea) break;
+      if (part.reach < kReach) continue;
+      where.push_back(Element::face(part.faces[part.faces.size() / 2]));
+      if (!isBody) {
+        places += fmt::format("{}a part of {:.0f} cm2 at ({:.0f}, {:.0f}, {:.0f})",
+                              places.empty() ? "" : ", ", part.area / 100, part.centre.x(),
+                              part.centre.y(), part.centre.z());
+        continue;
+      }
+      std::vector<double> share(isGone.size(), 0.0);
+      for (const FaceId f : part.faces) {
+        const Triangle& t = fit_.mesh.vertices(f);
+        share[fit_.regionOfVertex[t[0].index()]] += faceCross(fit_.mesh.positions(), t).norm() / 2;
+      }
+      isGone[static_cast<std::size_t>(std::max_element(share.begin(), share.end()) -
+                                      share.begin())] = 1;
+    }
+    std::string filledIn;
+    for (std::size_t r = 0; r < isGone.size(); ++r) {
+      const FitRegion& region = report_.regions[r];
+      if (isGone[r] != 0) {
+        places += (places.empty() ? "the " : ", ") + region.name;
+      } else if (region.missingShare > kFilledIn) {
+        filledIn += fmt::format("{}{} {:.0f} %", filledIn.empty() ? "" : ", ",
+                                isBody ? region.name : "model", 100 * region.missingShare);
+      }
+    }
+    if (!places.empty()) {
+      add(kPartGone, "fit-missing-part",
+          "there is no scan of " + places + ": the scan is not whole", std::move(where));
+    }
+    if (!filledIn.empty()) {
+      report_.findings.push_back({"fit-filled-in",
+                                  "the scan has holes, which were filled in from what is around "
+                                  "them: " +
+                                      filledIn,
+                                  {}});
+    }
   }
 
   void countFaults() {
@@ -176,9 +256,9 @@ class Judge {
     report_.crossings = findCrossingFaces(fit_.mesh).size();
   }
 
-  void add(double excess, std::string code, std::string message) {
+  void add(double excess, std::string code, std::string message, std::vector<Element> where = {}) {
     if (!(excess > 1)) return;
-    reasons_.push_back({excess, {std::move(code), std::move(message), {}}});
+    reasons_.push_back({excess, {std::move(code), std::move(message), std::move(where)}});
   }
 
   void weighReasons() {
@@ -208,6 +288,7 @@ class Judge {
     add(fit_.placement.scanIsInsideOut && !fit_.target.isCloud ? 2 : 0, "fit-inside-out",
         "the faces of the scan look inwards: it was mirrored, or its faces are turned; "
         "`toile check --repair` tells");
+    findMissing();
     std::stable_sort(reasons_.begin(), reasons_.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     for (auto& [excess, reason] : reasons_) report_.reasons.push_back(std::move(reason));
@@ -254,6 +335,7 @@ class Judge {
   std::vector<Foot> feet_;
   std::vector<char> isMissing_;
   std::vector<double> distances_, areas_;
+  std::vector<double> areaOfRegion_;  // mm2
   std::vector<std::pair<double, Finding>> reasons_;
 };
 

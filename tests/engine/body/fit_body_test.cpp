@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <iostream>
 #include <map>
@@ -107,6 +108,35 @@ TEST(FitBody, MeasuresScansOfStrangers) {
           << finding.message;
     }
   }
+}
+
+// As it comes from a scanner, without its left arm: the parametric body grows one.
+TEST(FitBody, SaysThatAnArmIsMissing) {
+  TOILE_TEST_DATA_OR_SKIP(file, "bodies/female_average.ply");
+  Scan scan = readScan(file, FileUnit::Millimetre).value();
+  std::erase_if(scan.triangles, [&](const Triangle& t) {
+    return std::any_of(t.begin(), t.end(),
+                       [&](VertexId v) { return scan.points[v.index()].x() > 220; });
+  });
+  // Points that no face uses would still be points of the scan.
+  std::vector<VertexId> number(scan.points.size());
+  std::vector<Eigen::Vector3d> points;
+  for (Triangle& t : scan.triangles) {
+    for (VertexId& v : t) {
+      if (!number[v.index()].isValid()) {
+        number[v.index()] = VertexId(points.size());
+        points.push_back(scan.points[v.index()]);
+      }
+      v = number[v.index()];
+    }
+  }
+  scan.points = std::move(points);
+  const Result<BodyFit> fit = fitBody(scan);
+  ASSERT_TRUE(fit) << fit.error();
+  ASSERT_FALSE(fit->fit.report.isOk());
+  EXPECT_EQ(fit->fit.report.reasons.front().message,
+            "there is no scan of the left upper arm, left forearm, left hand: the scan is not "
+            "whole");
 }
 
 // On one connectivity the true place of every vertex is known.

@@ -6,7 +6,9 @@
 
 #include <functional>
 #include <iostream>
+#include <numbers>
 
+#include "fit/missing_parts.h"
 #include "fit_cases.h"
 #include "support/result_printing.h"
 
@@ -84,6 +86,106 @@ TEST(FitBadInput, IsMarkedWithTheReason) {
   EXPECT_THAT(reasonsOf("two people", woman, two), HasSubstr("fit-stray-scan"));
   EXPECT_NE(reasonsOf("chair", woman, readTestScan("toys/armchair.ply")), "");
   EXPECT_NE(reasonsOf("squirrel", woman, scaledTo(readTestScan("toys/squirrel.ply"), 8)), "");
+}
+
+// A fit fills in what is not there, and what it fills in looks like a body.
+TEST(FitBadInput, MissingLimbsAreNamed) {
+  TOILE_BODIES_OR_SKIP();
+  const ReferenceModel woman = test::readBody("female_average");
+  ReferenceModel nameless = woman;
+  nameless.landmarks.clear();
+  const Mesh man = *test::readBody("male_average").mesh;
+  struct Cut {
+    std::string what;
+    std::string named;
+    std::function<bool(const Eigen::Vector3d&)> isGone;
+  };
+  // The man is 1770 mm tall, faces -y; his wrists are at (+-500, -200, 1100).
+  const std::vector<Cut> cuts{
+      {"arm", "left forearm, left hand", [](const auto& p) { return p.x() > 230 && p.z() > 800; }},
+      {"hand", "right hand", [](const auto& p) { return p.x() < -400 && p.y() < -205; }},
+      {"head", "head", [](const auto& p) { return p.z() > 1510; }},
+      {"foot", "left foot", [](const auto& p) { return p.x() > 0 && p.z() < 90; }},
+      {"lower leg", "left shank, left foot",
+       [](const auto& p) { return p.x() > 0 && p.z() < 480; }}};
+  for (const Cut& cut : cuts) {
+    const Scan scan = keepFaces(man, [&](const auto& p) { return !cut.isGone(p); });
+    const Result<Fit> fit = fitTemplate(woman, scan);
+    ASSERT_TRUE(fit) << fit.error();
+    EXPECT_FALSE(fit->report.isOk()) << cut.what;
+    if (fit->report.isOk()) continue;
+    const Finding& reason = fit->report.reasons.front();
+    std::cout << fmt::format("{}: {} ({:.1f} % missing)\n", cut.what, reason.message,
+                             100 * fit->report.missingShare);
+    EXPECT_EQ(reason.code, "fit-missing-part") << cut.what;
+    EXPECT_THAT(reason.message, HasSubstr(cut.named + ": the scan is not whole")) << cut.what;
+  }
+  // A model without landmarks has no words for it, but a place.
+  EXPECT_EQ(reasonsOf("hand of a nameless model", nameless,
+                      keepFaces(man, [&](const auto& p) { return !cuts[1].isGone(p); })),
+            "fit-missing-part ");
+  // Holes as scanners leave them are filled in, and that is told.
+  const Result<Fit> holes =
+      fitTemplate(woman, keepFaces(man, [](const auto& p) { return p.z() > 15 && p.z() < 1730; }));
+  ASSERT_TRUE(holes) << holes.error();
+  EXPECT_TRUE(holes->report.isOk()) << holes->report.reasons.front().message;
+  EXPECT_TRUE(std::any_of(holes->report.findings.begin(), holes->report.findings.end(),
+                          [](const Finding& f) { return f.code == "fit-filled-in"; }));
+}
+
+// A stump that a program closed leaves nothing without scan: the other side tells.
+TEST(FitBadInput, LimbDrawnTogetherOverAClosedStumpIsNamed) {
+  TOILE_BODIES_OR_SKIP();
+  const ReferenceModel woman = test::readBody("female_average");
+  const Mesh man = *test::readBody("male_average").mesh;
+  Scan scan = makeScan("no left foot", man);
+  // Everything below the ankle's middle drawn together into a rounded end.
+  const Eigen::Vector3d ankle(204, -20, 90);
+  for (Eigen::Vector3d& p : scan.points) {
+    if (p.x() > 0 && p.z() < ankle.z()) p = ankle + 30 * (p - ankle).normalized();
+  }
+  EXPECT_THAT(reasonsOf("closed stump", woman, scan), HasSubstr("fit-missing-part"));
+}
+
+TEST(MissingParts, ReachAsFarAsTheyStickOut) {
+  // A tube of radius 1 along z from 0 to 6 in rings of one half, closed by flat ends.
+  constexpr int kAround = 96;
+  constexpr int kRings = 13;
+  std::vector<Eigen::Vector3d> points;
+  std::vector<Triangle> faces;
+  for (int r = 0; r < kRings; ++r) {
+    for (int i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * i / kAround;
+      points.emplace_back(std::cos(angle), std::sin(angle), 0.5 * r);
+      if (r == 0) continue;
+      const std::size_t a = static_cast<std::size_t>((r - 1) * kAround + i);
+      const std::size_t b = static_cast<std::size_t>((r - 1) * kAround + (i + 1) % kAround);
+      faces.push_back({VertexId(a), VertexId(b), VertexId(b + kAround)});
+      faces.push_back({VertexId(a), VertexId(b + kAround), VertexId(a + kAround)});
+    }
+  }
+  const std::size_t below = points.size();
+  points.emplace_back(0, 0, 0);
+  points.emplace_back(0, 0, 6);
+  for (std::size_t i = 0; i < kAround; ++i) {
+    const std::size_t next = (i + 1) % kAround;
+    const std::size_t top = kAround * (kRings - 1);
+    faces.push_back({VertexId(next), VertexId(i), VertexId(below)});
+    faces.push_back({VertexId(top + i), VertexId(top + next), VertexId(below + 1)});
+  }
+  const Result<Mesh> tube = makeMesh(points, faces);
+  ASSERT_TRUE(tube) << tube.error();
+  const auto reachOf = [&](const std::function<bool(double)>& isMissing) {
+    std::vector<char> marks;
+    for (const Eigen::Vector3d& p : points) marks.push_back(isMissing(p.z()) ? 1 : 0);
+    const std::vector<fitting::MissingPart> parts = fitting::findMissingParts(*tube, marks);
+    EXPECT_EQ(parts.size(), 1U);
+    return parts.empty() ? 0 : parts.front().reach;
+  };
+  const double unit = 1 / std::sqrt(std::numbers::pi);  // of a tube as long as its radius
+  EXPECT_NEAR(reachOf([](double z) { return z >= 6; }), 0, 1e-9) << "a flat hole";
+  EXPECT_NEAR(reachOf([](double z) { return z >= 4; }), 2 * unit, 0.01) << "an end";
+  EXPECT_NEAR(reachOf([](double z) { return z >= 2 && z <= 4; }), unit, 0.01) << "a band";
 }
 
 TEST(FitBadInput, MirroredFootIsSeen) {
