@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "toile/body/fit_body.h"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +12,7 @@
 
 #include "body/body_mesh.h"
 #include "fit/fitter.h"
+#include "fit/segments.h"
 #include "toile/core/parallel.h"
 
 namespace toile {
@@ -179,6 +183,21 @@ std::optional<BodyOptions> bodyLike(const Mesh& standing) {
   return options[static_cast<std::size_t>(best)];
 }
 
+/// Names of people's landmarks that the body has no place for: its hands are mittens.
+std::vector<std::string> landmarksWithoutPlace(
+    const std::map<std::string, Eigen::Vector3d>& landmarks, const ReferenceModel& body) {
+  std::vector<std::string> known;
+  for (const fitting::Segment& segment : fitting::bodySegments()) {
+    for (std::string& name : segment.all()) known.push_back(std::move(name));
+  }
+  std::vector<std::string> without;
+  for (const auto& [name, place] : landmarks) {
+    if (body.landmarks.contains(name)) continue;
+    if (std::find(known.begin(), known.end(), name) != known.end()) without.push_back(name);
+  }
+  return without;
+}
+
 Eigen::Affine3d affineOf(const Similarity& similarity) {
   Eigen::Affine3d affine;
   affine.linear() = similarity.scale * similarity.rotation;
@@ -195,6 +214,11 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
   common.hasMittens = true;
   common.limits = options.limits;
   const Error cancelled{ErrorCode::Cancelled, "the fit was cancelled", {}};
+
+  const Result<ReferenceModel> standing = makeBody({});
+  if (!standing) return standing.error();
+  const std::vector<std::string> unused = landmarksWithoutPlace(common.landmarks, *standing);
+  for (const std::string& name : unused) common.landmarks.erase(name);
 
   if (progress != nullptr) progress->step("fit: scan");
   Result<Target> target = prepareTarget(scan);
@@ -226,7 +250,7 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
                  off.missingShare / options.limits.missingShare.value();
     if (!best || one.misfit < best->misfit) best = std::move(one);
     // With landmarks the template is bent to them: one posture serves all.
-    if (best->misfit < kPlainlyIn || !options.landmarks.empty()) break;
+    if (best->misfit < kPlainlyIn || !common.landmarks.empty()) break;
   }
 
   BodyFit result;
@@ -255,7 +279,14 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
   if (!fit) fit = coarse.finish(best->draft, *target);
   if (!*fit) return fit->error();
   result.fit = **std::move(fit);
-  if (isAPose && result.fit.report.isOk()) {
+  if (!unused.empty()) {
+    result.fit.report.findings.push_back(
+        {"fit-landmarks-unused",
+         fmt::format("the body has no place for these landmarks: {}", fmt::join(unused, ", ")),
+         {}});
+  }
+  // Landmarks may have bent it into any posture.
+  if (isAPose && common.landmarks.empty() && result.fit.report.isOk()) {
     const Fit& done = result.fit;
     result.measures =
         measureBody(upright(*done.model.mesh, done.model.mesh->positions(), done.placement));

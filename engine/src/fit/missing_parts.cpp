@@ -23,9 +23,9 @@ HalfedgeId nextOfOpening(const Mesh& mesh, const std::vector<char>& isIn, Halfed
 void measure(const Mesh& mesh, const std::vector<char>& isIn, MissingPart& part) {
   for (const FaceId f : part.faces) {
     const auto& [a, b, c] = mesh.vertices(f);
-    const double area = 0.5 * (mesh.position(b) - mesh.position(a))
-                                  .cross(mesh.position(c) - mesh.position(a))
-                                  .norm();
+    const double area =
+        0.5 *
+        (mesh.position(b) - mesh.position(a)).cross(mesh.position(c) - mesh.position(a)).norm();
     part.area += area;
     part.centre += area * (mesh.position(a) + mesh.position(b) + mesh.position(c)) / 3;
   }
@@ -75,9 +75,8 @@ std::vector<MissingPart> findMissingParts(const Mesh& fit, const std::vector<cha
   std::vector<char> isOpen(count, 0);
   for (std::size_t f = 0; f < count; ++f) {
     const Triangle& t = fit.vertices(FaceId(f));
-    isOpen[f] = std::all_of(t.begin(), t.end(), [&](VertexId v) {
-      return isMissing[v.index()] != 0;
-    });
+    isOpen[f] =
+        std::all_of(t.begin(), t.end(), [&](VertexId v) { return isMissing[v.index()] != 0; });
   }
   const std::vector<char> isIn = isOpen;
   std::vector<MissingPart> parts;

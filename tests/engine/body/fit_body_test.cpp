@@ -139,6 +139,29 @@ TEST(FitBody, SaysThatAnArmIsMissing) {
             "whole");
 }
 
+// Somebody who names all 74 places names fingers, too; a slip of the pen is still one.
+TEST(FitBody, TakesTheLandmarksOfACyclist) {
+  TOILE_BODIES_OR_SKIP();
+  const ReferenceModel cyclist = test::readBody("female_tall_slim_cycling");
+  BodyFitOptions options;
+  for (const auto& [name, point] : cyclist.landmarks) {
+    options.landmarks[name] = position(*cyclist.mesh, point);
+  }
+  const Scan scan = makeScan("cyclist", *cyclist.mesh);
+  const Result<BodyFit> fit = fitBody(scan, options);
+  ASSERT_TRUE(fit) << fit.error();
+  EXPECT_TRUE(fit->fit.report.isOk()) << fit->fit.report.reasons.front().message;
+  EXPECT_TRUE(fit->measures.empty());
+  const auto& findings = fit->fit.report.findings;
+  const auto unused = std::find_if(findings.begin(), findings.end(), [](const Finding& finding) {
+    return finding.code == "fit-landmarks-unused";
+  });
+  ASSERT_NE(unused, findings.end());
+  EXPECT_NE(unused->message.find("index_tip_l"), std::string::npos);
+  options.landmarks["indx_tip_l"] = Eigen::Vector3d::Zero();
+  EXPECT_FALSE(fitBody(scan, options));
+}
+
 // On one connectivity the true place of every vertex is known.
 TEST(FindArms, TurnsThemToWhereTheScanHasThem) {
   const Result<ReferenceModel> down = makeBody({});

@@ -7,7 +7,8 @@
 namespace toile {
 
 struct BodyFitOptions {
-  std::map<std::string, Eigen::Vector3d> landmarks = {};  ///< as in FitOptions
+  /// As in FitOptions; those of fingers, which the body has not, are left out, with a finding.
+  std::map<std::string, Eigen::Vector3d> landmarks = {};
   Length landmarkError = Length::mm(5);
   /// As for others, but that more of the scan may be stray: the body has mittens for fingers.
   FitLimits limits = {.strayShare = Ratio::percent(5)};
@@ -17,7 +18,7 @@ struct BodyFit {
   Fit fit;           ///< on the connectivity of builtin:body@1
   BodyOptions body;  ///< the parametric body nearest to it: form, posture, and its measures
   /// What the fit itself measures, in the order of the enumeration; nothing for other postures than
-  /// the A-pose.
+  /// the A-pose, and where landmarks may have bent it.
   std::vector<Length> measures;
 };
 
