@@ -13,6 +13,7 @@
 #include <thread>
 #include <vector>
 
+#include "support/cut_scan.h"
 #include "support/run_program.h"
 #include "support/test_data.h"
 #include "toile/mesh/mesh_file.h"
@@ -123,7 +124,8 @@ TEST_F(Batch, IsResumedAfterAKillWithTheSameBytesAndNoWorkTwice) {
   EXPECT_EQ(filesIn(out), filesIn(whole_));
 }
 
-// Each can be read, and would make pieces: none may become a pattern.
+// Each can be read, and would make pieces: none may become a pattern, but of the diver whose scan
+// ends at wrists and ankles, as the suit does.
 TEST_F(Batch, BodiesOfAnotherKindFailAndSayWhy) {
   TOILE_TEST_DATA_OR_SKIP(chair, "toys/armchair.ply");
   TOILE_TEST_DATA_OR_SKIP(foot, "feet/foot_male_average_l.ply");
@@ -137,16 +139,25 @@ TEST_F(Batch, BodiesOfAnotherKindFailAndSayWhy) {
   write("metres.ply", [](const Eigen::Vector3d& p) { return Eigen::Vector3d(p / 1000); });
   write("mirrored.ply",
         [](const Eigen::Vector3d& p) { return Eigen::Vector3d(-p.x(), p.y(), p.z()); });
+  const Scan diver = cutScan(body, [](const Eigen::Vector3d& p) {
+    return p.z() > 90 && (std::abs(p.x()) < 400 || p.y() > -205);
+  });
+  writeText(folder_->path() / "diver.ply",
+            writePly(makeMesh(diver.points, diver.triangles).value()));
   writeText(folder_->path() / "kinds.csv",
             "name,body,units\nchair," + chair.string() + ",mm\nfoot," + foot.string() +
                 ",mm\nmetres,metres.ply,mm\nmirrored,mirrored.ply,mm\n"
-                "ben,builtin:body@1?size=EU50M,\n");
+                "ben,builtin:body@1?size=EU50M,\ndiver,diver.ply,mm\n");
   const fs::path out = folder_->path() / "kinds";
   const ProgramResult result =
       toile({"batch", kWetsuit, "--bodies", folder_->path() / "kinds.csv", "-o", out, "-j", "2"});
   EXPECT_EQ(result.status, 1);
-  EXPECT_THAT(result.out, HasSubstr("1 of 5 orders done"));
+  EXPECT_THAT(result.out, HasSubstr("2 of 6 orders done"));
   EXPECT_TRUE(fs::exists(out / "ben" / "pattern.dxf"));
+  EXPECT_TRUE(fs::exists(out / "diver" / "pattern.dxf"));
+  EXPECT_THAT(
+      readText(out / "index.html"),
+      HasSubstr("<li>there is no scan of the left hand, left foot, right hand, right foot"));
   for (const auto& [name, reason] : {std::pair{"chair", "another kind of model"},
                                      {"foot", "another kind of model"},
                                      {"metres", "m taken for mm"},

@@ -56,6 +56,7 @@ TEST(TransferCommand, MakesADesignForAScanWithHoles) {
       toile({"--units", "mm", "make", design, "--body", scan, "-o", folder.path() / "cut"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.err, HasSubstr("[fitted-body]"));
+  EXPECT_THAT(result.err, HasSubstr("[fit-filled-in]"));
   EXPECT_THAT(result.out, HasSubstr("24 pieces"));
 }
 

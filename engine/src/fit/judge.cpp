@@ -2,6 +2,7 @@
 #include "fit/judge.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <Eigen/Geometry>
 #include <algorithm>
@@ -38,6 +39,8 @@ constexpr double kJustMissed = 1.001;
 constexpr double kRegionGone = 0.6;
 constexpr double kReach = 1;
 constexpr double kPartShare = 0.005;
+/// A region of which a part that sticks out takes so much is cut off.
+constexpr double kCutOff = 0.3;
 /// A limb so much smaller than the other one was drawn together over a closed stump.
 constexpr double kShrunk = 0.5;
 /// From so much on it is told what was filled in.
@@ -202,53 +205,99 @@ class Judge {
   /// Of a body by its regions, and whatever sticks out; elsewhere by what sticks out alone.
   void findMissing() {
     std::vector<char> isGone(report_.regions.size(), 0);
-    std::string places;
-    std::vector<Element> where;
-    const bool isBody = !fit_.regionOfVertex.empty();
-    for (std::size_t r = 0; isBody && r < report_.regions.size(); ++r) {
+    if (fit_.regionOfVertex.empty()) {
+      tellMissingPlaces();
+    } else {
+      isGone = missingRegions();
+      tellMissingRegions(isGone);
+    }
+    tellFilledIn(isGone);
+  }
+
+  [[nodiscard]] std::vector<char> missingRegions() const {
+    std::vector<char> isGone(report_.regions.size(), 0);
+    for (std::size_t r = 0; r < isGone.size(); ++r) {
       const std::optional<std::size_t> other = otherSide(r);
       const bool isShrunk = other && areaOfRegion_[r] < kShrunk * areaOfRegion_[*other];
       if (report_.regions[r].missingShare > kRegionGone || isShrunk) isGone[r] = 1;
     }
-    for (const MissingPart& part : findMissingParts(fit_.mesh, isMissing_)) {
-      if (part.area < kPartShare * shape_.totalArea) break;
-      if (part.reach < kReach) continue;
-      where.push_back(Element::face(part.faces[part.faces.size() / 2]));
-      if (!isBody) {
-        places += fmt::format("{}a part of {:.0f} cm2 at ({:.0f}, {:.0f}, {:.0f})",
-                              places.empty() ? "" : ", ", part.area / 100, part.centre.x(),
-                              part.centre.y(), part.centre.z());
-        continue;
-      }
+    for (const MissingPart& part : partsThatStickOut()) {
       std::vector<double> share(isGone.size(), 0.0);
       for (const FaceId f : part.faces) {
         const Triangle& t = fit_.mesh.vertices(f);
-        share[fit_.regionOfVertex[t[0].index()]] += faceCross(fit_.mesh.positions(), t).norm() / 2;
+        const std::size_t r = fit_.regionOfVertex[t[0].index()];
+        share[r] += faceCross(fit_.mesh.positions(), t).norm() / 2 / areaOfRegion_[r];
       }
-      isGone[static_cast<std::size_t>(std::max_element(share.begin(), share.end()) -
-                                      share.begin())] = 1;
+      const double most = *std::max_element(share.begin(), share.end());
+      for (std::size_t r = 0; r < isGone.size(); ++r) {
+        if (share[r] >= std::min(kCutOff, most)) isGone[r] = 1;
+      }
     }
-    std::string filledIn;
+    return isGone;
+  }
+
+  [[nodiscard]] std::vector<MissingPart> partsThatStickOut() const {
+    std::vector<MissingPart> parts = findMissingParts(fit_.mesh, isMissing_);
+    std::erase_if(parts, [&](const MissingPart& part) {
+      return part.area < kPartShare * shape_.totalArea || part.reach < kReach;
+    });
+    return parts;
+  }
+
+  void tellMissingPlaces() {
+    std::vector<std::string> places;
+    for (const MissingPart& part : partsThatStickOut()) {
+      places.push_back(fmt::format("a part of {:.0f} cm2 at ({:.0f}, {:.0f}, {:.0f})",
+                                   part.area / 100, part.centre.x(), part.centre.y(),
+                                   part.centre.z()));
+    }
+    if (!places.empty()) addMissing(fmt::format("{}", fmt::join(places, ", ")));
+  }
+
+  /// Clothes end at hands and feet, and scanners lose them: without these alone the fit is good.
+  void tellMissingRegions(const std::vector<char>& isGone) {
+    std::vector<std::string> names;
+    double told = 0;
+    bool isTold = true;
+    for (std::size_t r = 0; r < isGone.size(); ++r) {
+      if (isGone[r] == 0) continue;
+      const FitRegion& region = report_.regions[r];
+      names.push_back(region.name);
+      told += region.missingShare * areaOfRegion_[r] / shape_.totalArea;
+      isTold = isTold && (region.name.ends_with("hand") || region.name.ends_with("foot"));
+    }
+    if (names.empty()) return;
+    const std::string all = fmt::format("the {}", fmt::join(names, ", "));
+    if (!isTold) {
+      addMissing(all);
+      return;
+    }
+    toldShare_ = told;
+    report_.findings.push_back(
+        {"fit-missing-part",
+         fmt::format("there is no scan of {}: what the fit has there is invented", all),
+         {}});
+  }
+
+  void addMissing(const std::string& what) {
+    add(kPartGone, "fit-missing-part",
+        fmt::format("there is no scan of {}: the scan is not whole", what));
+  }
+
+  void tellFilledIn(const std::vector<char>& isGone) {
+    std::vector<std::string> holes;
     for (std::size_t r = 0; r < isGone.size(); ++r) {
       const FitRegion& region = report_.regions[r];
-      if (isGone[r] != 0) {
-        places += (places.empty() ? "the " : ", ") + region.name;
-      } else if (region.missingShare > kFilledIn) {
-        filledIn += fmt::format("{}{} {:.0f} %", filledIn.empty() ? "" : ", ",
-                                isBody ? region.name : "model", 100 * region.missingShare);
-      }
+      if (isGone[r] != 0 || region.missingShare < kFilledIn) continue;
+      holes.push_back(fmt::format("{} {:.0f} %", region.name == "all" ? "model" : region.name,
+                                  100 * region.missingShare));
     }
-    if (!places.empty()) {
-      add(kPartGone, "fit-missing-part",
-          "there is no scan of " + places + ": the scan is not whole", std::move(where));
-    }
-    if (!filledIn.empty()) {
-      report_.findings.push_back({"fit-filled-in",
-                                  "the scan has holes, which were filled in from what is around "
-                                  "them: " +
-                                      filledIn,
-                                  {}});
-    }
+    if (holes.empty()) return;
+    report_.findings.push_back(
+        {"fit-filled-in",
+         fmt::format("the scan has holes, which were filled in from what is around them: {}",
+                     fmt::join(holes, ", ")),
+         {}});
   }
 
   void countFaults() {
@@ -256,9 +305,9 @@ class Judge {
     report_.crossings = findCrossingFaces(fit_.mesh).size();
   }
 
-  void add(double excess, std::string code, std::string message, std::vector<Element> where = {}) {
+  void add(double excess, std::string code, std::string message) {
     if (!(excess > 1)) return;
-    reasons_.push_back({excess, {std::move(code), std::move(message), std::move(where)}});
+    reasons_.push_back({excess, {std::move(code), std::move(message), {}}});
   }
 
   void weighReasons() {
@@ -267,7 +316,8 @@ class Judge {
         fmt::format("{:.0f} % of the scan lies more than {:.0f} mm from the fit: another kind of "
                     "model, another posture, or more than one model in the file",
                     100 * report_.strayShare, strayDistance()));
-    add(report_.missingShare / limits.missingShare.value(), "fit-missing-scan",
+    findMissing();
+    add((report_.missingShare - toldShare_) / limits.missingShare.value(), "fit-missing-scan",
         fmt::format("for {:.0f} % of the model there is no scan{}; the scan is not whole",
                     100 * report_.missingShare, worstRegions()));
     add(report_.scanToFit.mean / meanLimit(), "fit-distance",
@@ -288,7 +338,6 @@ class Judge {
     add(fit_.placement.scanIsInsideOut && !fit_.target.isCloud ? 2 : 0, "fit-inside-out",
         "the faces of the scan look inwards: it was mirrored, or its faces are turned; "
         "`toile check --repair` tells");
-    findMissing();
     std::stable_sort(reasons_.begin(), reasons_.end(),
                      [](const auto& a, const auto& b) { return a.first > b.first; });
     for (auto& [excess, reason] : reasons_) report_.reasons.push_back(std::move(reason));
@@ -336,6 +385,7 @@ class Judge {
   std::vector<char> isMissing_;
   std::vector<double> distances_, areas_;
   std::vector<double> areaOfRegion_;  // mm2
+  double toldShare_ = 0;              // of the fit: missing hands and feet, which are no failure
   std::vector<std::pair<double, Finding>> reasons_;
 };
 

@@ -53,9 +53,11 @@ bool looksInward(const Scan& scan, const Fit& fit) {
   return 2 * inward > seen;
 }
 
-/// What reading the scan had to say, and what a scanner's faces may betray.
+/// What reading the scan had to say, what the fit had, and what a scanner's faces may betray.
 std::vector<Finding> findingsOf(const Scan& scan, const Fit& fit) {
   std::vector<Finding> findings = scan.findings;
+  const std::vector<Finding>& told = fit.report.findings;
+  findings.insert(findings.end(), told.begin(), told.end());
   if (looksInward(scan, fit)) {
     findings.push_back({"maybe-mirrored",
                         "the faces of the scan look inward: it may be mirrored, so that left and "
@@ -131,6 +133,10 @@ Result<CarriedDesign> carryToModel(const Document& document,
   Result<Transfer> transfer =
       transferDesign(document, target, mapped->map, options.transfer, progress);
   if (!transfer) return transfer.error();
+  if (mapped->fit) {
+    const std::vector<Finding>& told = mapped->fit->report.findings;
+    transfer->findings.insert(transfer->findings.begin(), told.begin(), told.end());
+  }
   return CarriedDesign{*std::move(transfer), std::move(mapped->fit)};
 }
 

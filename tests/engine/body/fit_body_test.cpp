@@ -13,6 +13,7 @@
 #include "engine/fit/fit_cases.h"
 #include "fit/arms.h"
 #include "fit/posture.h"
+#include "support/cut_scan.h"
 #include "support/result_printing.h"
 #include "support/test_data.h"
 #include "toile/core/file.h"
@@ -110,27 +111,11 @@ TEST(FitBody, MeasuresScansOfStrangers) {
   }
 }
 
-// As it comes from a scanner, without its left arm: the parametric body grows one.
+// The parametric body grows an arm that the scan has not.
 TEST(FitBody, SaysThatAnArmIsMissing) {
   TOILE_TEST_DATA_OR_SKIP(file, "bodies/female_average.ply");
-  Scan scan = readScan(file, FileUnit::Millimetre).value();
-  std::erase_if(scan.triangles, [&](const Triangle& t) {
-    return std::any_of(t.begin(), t.end(),
-                       [&](VertexId v) { return scan.points[v.index()].x() > 220; });
-  });
-  // Points that no face uses would still be points of the scan.
-  std::vector<VertexId> number(scan.points.size());
-  std::vector<Eigen::Vector3d> points;
-  for (Triangle& t : scan.triangles) {
-    for (VertexId& v : t) {
-      if (!number[v.index()].isValid()) {
-        number[v.index()] = VertexId(points.size());
-        points.push_back(scan.points[v.index()]);
-      }
-      v = number[v.index()];
-    }
-  }
-  scan.points = std::move(points);
+  const ReferenceModel woman = readModel(file, FileUnit::Millimetre).value();
+  const Scan scan = test::cutScan(*woman.mesh, [](const auto& p) { return p.x() <= 220; });
   const Result<BodyFit> fit = fitBody(scan);
   ASSERT_TRUE(fit) << fit.error();
   ASSERT_FALSE(fit->fit.report.isOk());

@@ -36,13 +36,14 @@ Result<MappedModels> mapToModel(const ReferenceModel& model, const ReferenceMode
 
 /// Fits the design's model to a scan and carries the design over to the fitted shape: closed, on
 /// the connectivity that the design knows, without the scan's holes and noise. The findings begin
-/// with those of the scan, and maybe-mirrored where its faces look inward.
+/// with those of the scan and of the fit, and maybe-mirrored where its faces look inward.
 /// @return NotConverged when the fit misses its limits, with the reasons; the errors of
 ///   fitTemplate() and transferDesign().
 Result<CarriedDesign> carryToScan(const Document& document, const Scan& scan,
                                   const CarryOptions& options = {}, Progress* progress = nullptr);
 
-/// The same onto the surface of a model itself, by way of a fit where its connectivity is another.
+/// The same onto the surface of a model itself, by way of a fit, whose findings come first, where
+/// its connectivity is another.
 Result<CarriedDesign> carryToModel(const Document& document,
                                    const std::shared_ptr<const ReferenceModel>& target,
                                    const CarryOptions& options = {}, Progress* progress = nullptr);
