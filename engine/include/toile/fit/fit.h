@@ -21,7 +21,7 @@ struct FitLimits {
   Ratio meanDistance = Ratio::of(0.001);    ///< scan to fit, without stray parts; and 1 mm of noise
   Ratio strayDistance = Ratio::of(0.012);   ///< and 2 mm: a scan point farther off is stray
   Ratio strayShare = Ratio::percent(2);     ///< of the scan's area that may be stray
-  Ratio missingShare = Ratio::percent(12);  ///< that of the fit may have no scan; not of hands, feet
+  Ratio missingShare = Ratio::percent(12);  ///< of the fit's area, without scan: hands, feet apart
   Ratio flippedShare = Ratio::of(0.001);    ///< of the triangles that may be turned inside out
   double leastScale = 0.4;                  ///< scan to template
   double mostScale = 2.5;
