@@ -263,7 +263,11 @@ bool MainWindow::exportTo(const std::filesystem::path& folder) {
                                  return writePattern(*pattern, folder, &progress);
                                });
   if (!written) {
-    QMessageBox::warning(this, tr("Export"), QString::fromStdString(written.error().message));
+    // The engine's advice is for the command line.
+    QMessageBox::warning(
+        this, tr("Export"),
+        tr("Not exported: %1. Choose another folder or make room.")
+            .arg(QString::fromStdString(written.error().message).section(';', 0, 0)));
     return false;
   }
   showMessage(tr("%n files written to %1", nullptr, static_cast<int>(written->files.size()))

@@ -85,6 +85,11 @@ constexpr PdfPaper kPapers[] = {PdfPaper::A4OrLetter, PdfPaper::A4, PdfPaper::Le
                                 PdfPaper::A3,         PdfPaper::A0, PdfPaper::OneSheet};
 constexpr int kMostThumbnails = 120;
 
+/// What happened; the engine's advice is for the command line.
+QString adviceOff(const Error& error) {
+  return QString::fromStdString(error.message).section(';', 0, 0);
+}
+
 }  // namespace
 
 /// The files being made, for dialogs that may be gone when they are.
@@ -123,7 +128,7 @@ ExportDialog::~ExportDialog() {
 
 QWidget* ExportDialog::makeFormats() {
   auto* side = new QWidget;
-  side->setFixedWidth(262);
+  side->setFixedWidth(290);
   auto* column = new QVBoxLayout(side);
   column->setContentsMargins(12, 12, 12, 12);
   auto* heading = new QLabel(tr("Files to write"));
@@ -320,8 +325,7 @@ void ExportDialog::makeFiles() {
 
 void ExportDialog::filesMade(const Result<WrittenPattern>& written) {
   if (!written) {
-    state_->setText(tr("The files could not be made: %1.")
-                        .arg(QString::fromStdString(written.error().message)));
+    state_->setText(tr("The files could not be made: %1.").arg(adviceOff(written.error())));
     return;
   }
   bodyPicture_.save(made_->filePath(QStringLiteral("body.png")));
@@ -423,7 +427,7 @@ std::optional<int> ExportDialog::exportChosen() {
                              tr("Not exported: %1. %n files are written, the others of the folder "
                                 "are as they were.",
                                 nullptr, count)
-                                 .arg(QString::fromStdString(done.error().message)));
+                                 .arg(adviceOff(done.error())));
         return std::nullopt;
       }
       ++count;

@@ -38,8 +38,8 @@ PieceRecord record(const std::string& id, const Vector3d& anchor) {
 }
 
 Document documentOf(const Design& design, Mesh mesh) {
-  return {std::make_shared<const Design>(design), std::make_shared<const ReferenceModel>(
-                                                      makeReferenceModel("cloth", std::move(mesh)))};
+  return {std::make_shared<const Design>(design),
+          std::make_shared<const ReferenceModel>(makeReferenceModel("cloth", std::move(mesh)))};
 }
 
 /// Work on a cloth of 400 x 240 mm, or on what is given, with its pattern.

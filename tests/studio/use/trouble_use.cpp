@@ -220,6 +220,7 @@ void diskFillsWhileSaving(MainWindow& window) {
   hand.command("undo");
   hand.command("undo");
   require(session.isUnsaved(), "the work goes on");
+  hand.settle();
   // No file may grow beyond 1 kB: writing stops in the middle, as on a full disk.
   std::signal(SIGXFSZ, SIG_IGN);
   rlimit before{};
@@ -237,6 +238,16 @@ void diskFillsWhileSaving(MainWindow& window) {
   require(QDir(folder.path()).entryList(QDir::Files | QDir::Hidden).size() == 1,
           "and nothing half is left beside it");
   require(session.isUnsaved(), "the work counts as unsaved");
+  // The pattern's files: all of them, or none.
+  const QString pattern = folder.filePath("pattern");
+  said.clear();
+  box = answer("", {"OK"}, &said);
+  require(!window.exportTo(pattern.toStdString()), "a full disk: not exported");
+  delete box;
+  std::printf("  %s\n", said.toUtf8().constData());
+  require(said.contains("another folder") && !said.contains("-o") &&
+              QDir(pattern).entryList(QDir::Files | QDir::Hidden).isEmpty(),
+          "told, and no file is half there");
   // Room again while the box asks.
   box = answer("", {"Try again"}, nullptr, [&] { setrlimit(RLIMIT_FSIZE, &before); });
   require(window.saveTo(file.toStdString()), "tried again with room: saved");
