@@ -81,8 +81,8 @@ TEST(FitBadInput, MissingLimbsAreNamed) {
   // The man is 1770 mm tall, faces -y; his wrists are at (+-500, -200, 1100).
   const std::vector<Cut> cuts{
       {"head", "head", [](const auto& p) { return p.z() > 1510; }},
-      {"forearm and lower leg", "left forearm, left hand, right shank, right foot",
-       [](const auto& p) { return (p.x() > 330 && p.z() > 800) || (p.x() < 0 && p.z() < 400); }}};
+      {"half a forearm and half a lower leg", "left forearm, left hand, right shank, right foot",
+       [](const auto& p) { return (p.x() > 410 && p.z() > 800) || (p.x() < 0 && p.z() < 300); }}};
   for (const Cut& cut : cuts) {
     const Scan scan = test::cutScan(man, [&](const auto& p) { return !cut.isGone(p); });
     const Result<Fit> fit = fitTemplate(woman, scan);
@@ -136,17 +136,17 @@ TEST(FitBadInput, LimbDrawnTogetherOverAClosedStumpIsNamed) {
 
 TEST(MissingParts, ReachAsFarAsTheyStickOut) {
   // A tube of radius 1 along z from 0 to 6 in rings of one half, closed by flat ends.
-  constexpr int kAround = 96;
-  constexpr int kRings = 13;
+  constexpr std::size_t kAround = 96;
+  constexpr std::size_t kRings = 13;
   std::vector<Eigen::Vector3d> points;
   std::vector<Triangle> faces;
-  for (int r = 0; r < kRings; ++r) {
-    for (int i = 0; i < kAround; ++i) {
-      const double angle = 2 * std::numbers::pi * i / kAround;
-      points.emplace_back(std::cos(angle), std::sin(angle), 0.5 * r);
+  for (std::size_t r = 0; r < kRings; ++r) {
+    for (std::size_t i = 0; i < kAround; ++i) {
+      const double angle = 2 * std::numbers::pi * static_cast<double>(i) / kAround;
+      points.emplace_back(std::cos(angle), std::sin(angle), 0.5 * static_cast<double>(r));
       if (r == 0) continue;
-      const std::size_t a = static_cast<std::size_t>((r - 1) * kAround + i);
-      const std::size_t b = static_cast<std::size_t>((r - 1) * kAround + (i + 1) % kAround);
+      const std::size_t a = (r - 1) * kAround + i;
+      const std::size_t b = (r - 1) * kAround + (i + 1) % kAround;
       faces.push_back({VertexId(a), VertexId(b), VertexId(b + kAround)});
       faces.push_back({VertexId(a), VertexId(b + kAround), VertexId(a + kAround)});
     }
