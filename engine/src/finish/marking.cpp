@@ -114,6 +114,34 @@ class PathDrawer {
   std::map<FaceId, std::vector<FaceId>> facesOn_;
 };
 
+/// Makes one line of the parts of a curve between its crossings with others, whichever way and in
+/// which order they run.
+void joinParts(std::vector<InternalLine>& lines) {
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    for (std::size_t k = i + 1; k < lines.size() && !lines[i].closed;) {
+      Points2& points = lines[i].points;
+      Points2& part = lines[k].points;
+      const bool isSame =
+          !lines[k].closed && lines[k].curve == lines[i].curve && lines[k].kind == lines[i].kind;
+      const bool meetsFront = points.front() == part.front() || points.front() == part.back();
+      const bool meetsBack = points.back() == part.front() || points.back() == part.back();
+      if (!isSame || !(meetsFront || meetsBack)) {
+        ++k;
+        continue;
+      }
+      if (!meetsBack) std::reverse(points.begin(), points.end());
+      if (points.back() != part.front()) std::reverse(part.begin(), part.end());
+      points.insert(points.end(), part.begin() + 1, part.end());
+      if (points.front() == points.back()) {
+        points.pop_back();
+        lines[i].closed = true;
+      }
+      lines.erase(lines.begin() + static_cast<std::ptrdiff_t>(k));
+      k = i + 1;  // the line has a new end
+    }
+  }
+}
+
 /// "10", "12.5": as short as a hundredth of a millimetre allows.
 std::string shortMm(double mm) {
   std::string text = fmt::format("{:.2f}", mm);
@@ -137,17 +165,9 @@ std::vector<InternalLine> internalLines(const Document& document,
     line.closed = wire.vertices.front() == wire.vertices.back();
     for (const VertexId v : wire.vertices) line.points.push_back(flat.position[v]);
     if (line.closed) line.points.pop_back();
-    // The parts between crossings with other lines are one line to draw.
-    const bool goesOn = !lines.empty() && !line.closed && !lines.back().closed &&
-                        lines.back().curve == line.curve && lines.back().kind == line.kind &&
-                        lines.back().points.back() == line.points.front();
-    if (goesOn) {
-      Points2& points = lines.back().points;
-      points.insert(points.end(), line.points.begin() + 1, line.points.end());
-    } else {
-      lines.push_back(std::move(line));
-    }
+    lines.push_back(std::move(line));
   }
+  joinParts(lines);
   const bool hasMarks = std::any_of(curves.begin(), curves.end(), [](const PlacedCurve& curve) {
     return curve.kind == CurveKind::Mark;
   });

@@ -7,12 +7,14 @@
 #include <cmath>
 #include <iterator>
 #include <map>
+#include <optional>
 #include <set>
 
 #include "finish/polygon.h"
 #include "io/ascii.h"
 #include "io/dxf_text.h"
 #include "io/file_date.h"
+#include "io/polyline.h"
 #include "toile/core/version.h"
 #include "toile/io/nested.h"
 #include "toile/sew/sewing.h"
@@ -227,7 +229,7 @@ class Writer {
     if (ascii != text && reported_.insert(text).second)
       findings_.push_back({"dxf-text-changed",
                            fmt::format("the DXF, which holds only ASCII, calls the {} \"{}\" "
-                                       "\"{}\"; the other files keep the name",
+                                       "\"{}\"; PDF, SVG and reports keep the name",
                                        what, text, ascii),
                            {}});
     return ascii;
@@ -284,6 +286,11 @@ class Writer {
     }
   }
 
+  /// An inner line that ends on an outline makes no corner there.
+  void collectInnerPoints(const std::vector<LinePoint>& points) {
+    for (const LinePoint& p : points) markedPoints_.try_emplace(p.at, p.corner);
+  }
+
   void writeClosed(const Outline& outline, const Placement& placement, int layer, int curveLayer) {
     const std::vector<LinePoint> points = clockwise(outline, placement);
     collectPoints(points);
@@ -291,7 +298,12 @@ class Writer {
     curves_.push_back({curveLayer, coordinates(points), true});
   }
 
-  void writeInternal(const InternalLine& line, const Placement& placement) {
+  /// Its name stands at its first point, as the standard has it, and along it, so that it stays in
+  /// the piece; open lines run to the right.
+  void writeInternal(InternalLine line, const Placement& placement) {
+    for (Eigen::Vector2d& p : line.points) p = placement.apply(p);
+    if (!line.closed && !line.points.empty() && line.points.front().x() > line.points.back().x())
+      std::reverse(line.points.begin(), line.points.end());
     std::vector<LinePoint> points;
     const std::size_t count = line.points.size();
     for (std::size_t i = 0; i < count; ++i) {
@@ -299,13 +311,20 @@ class Writer {
       const bool turns =
           !isEnd && std::abs(turnAngle(line.points[(i + count - 1) % count], line.points[i],
                                        line.points[(i + 1) % count])) > 0.35;  // 20 degrees
-      points.push_back({toDxf(placement.apply(line.points[i])), isEnd || turns});
+      points.push_back({toDxf(line.points[i]), isEnd || turns});
     }
-    collectPoints(points);
+    collectInnerPoints(points);
     out_.polyline(kInternal, coordinates(points), line.closed);
     curves_.push_back({kInternalCurve, coordinates(points), line.closed});
-    if (!points.empty())
-      out_.text(kInternal, points.front().at, kEdgeTextHeightMm, plainText(line.name, "line"));
+    if (points.empty()) return;
+    const std::string name = plainText(line.name, "line");
+    const double length = lengthOf(line.points);
+    const double height = std::clamp(length / (kLetterWide * static_cast<double>(name.size() + 1)),
+                                     kLeastTextMm, kEdgeTextHeightMm);
+    const double width = kLetterWide * height * static_cast<double>(name.size());
+    if (name.empty() || width > length) return;  // it would stand out of the piece
+    const Eigen::Vector2d along = pointAt(line.points, width) - line.points.front();
+    out_.text(kInternal, points.front().at, height, name, std::atan2(along.y(), along.x()));
   }
 
   void writePieceText(std::size_t i) {
@@ -327,7 +346,9 @@ class Writer {
     for (const std::string& line : lines) letters = std::max(letters, line.size());
     const double room = EdgeGrid(positions(piece.sewLines)).nearest(piece.labelPosition).distance;
     const double widest = kLetterWide * static_cast<double>(letters);
-    const double height = std::clamp(2 * room / widest, kLeastTextMm, kTextHeightMm);
+    const double feeds = 1 + kLineFeed * static_cast<double>(std::max(above, lines.size() - above));
+    const double height =
+        std::clamp(room / std::hypot(0.5 * widest, feeds), kLeastTextMm, kTextHeightMm);
     Eigen::Vector2d at =
         pattern_.layout.placements[i].apply(piece.labelPosition) +
         height * Eigen::Vector2d(-0.5 * widest, kLineFeed * static_cast<double>(above));
@@ -345,19 +366,60 @@ class Writer {
     std::vector<std::string> lines;
     for (const std::string& line : piece.label) lines.push_back(plainText(line, "label"));
     writeBesideLabel(i, kAnnotation, lines, lines.size());
+    std::vector<Points2> sewLines = positions(piece.sewLines);
+    for (Points2& loop : sewLines)
+      for (Eigen::Vector2d& p : loop) p = placement.apply(p);
     for (const OutlineRun& run : piece.runs) {
       if (run.seam == 0) continue;
-      const Outline& loop = piece.sewLines[run.loop];
-      const std::size_t middle = run.first + run.edgeCount / 2;
-      const Eigen::Vector2d& a = loop[middle % loop.size()].position;
-      const Eigen::Vector2d& b = loop[(middle + 1) % loop.size()].position;
-      const Eigen::Vector2d along = (b - a).normalized();
-      const Eigen::Vector2d inward(-along.y(), along.x());
-      constexpr double kInsideMm = 3;
-      out_.text(kAnnotation, toDxf(placement.apply(0.5 * (a + b) + kInsideMm * inward)),
-                kEdgeTextHeightMm, edgeCodes(pattern_, piece, run),
-                std::atan2(along.y(), along.x()) + placement.angle);
+      const std::string codes = edgeCodes(pattern_, piece, run);
+      if (const auto place = edgeTextPlace(sewLines, run, codes)) {
+        out_.text(kAnnotation, toDxf(place->at), place->height, codes, place->angle);
+      }
     }
+  }
+
+  struct TextPlace {
+    Eigen::Vector2d at;
+    double height, angle;
+  };
+
+  /// Beside the middle of a run, inside the piece and not upside down; smaller, and away from the
+  /// middle, where it would not fit. Nothing where it fits nowhere.
+  static std::optional<TextPlace> edgeTextPlace(const std::vector<Points2>& sewLines,
+                                                const OutlineRun& run, const std::string& text) {
+    const Points2& loop = sewLines[run.loop];
+    Points2 way;
+    for (std::size_t k = 0; k <= run.edgeCount; ++k)
+      way.push_back(loop[(run.first + k) % loop.size()]);
+    const double length = lengthOf(way);
+    for (const double height : {kEdgeTextHeightMm, 2.5, kLeastTextMm}) {
+      const double width = kLetterWide * height * static_cast<double>(text.size());
+      if (width > length) continue;
+      for (const double part : {0.5, 0.35, 0.65, 0.2, 0.8}) {
+        const double middle = std::clamp(part * length, 0.5 * width, length - 0.5 * width);
+        const Eigen::Vector2d a = pointAt(way, middle - 0.5 * width);
+        const Eigen::Vector2d b = pointAt(way, middle + 0.5 * width);
+        if (a == b) continue;
+        const Eigen::Vector2d forward = (b - a).normalized();
+        const Eigen::Vector2d inward(-forward.y(), forward.x());
+        const bool isUpright = forward.x() >= 0;
+        const Eigen::Vector2d along = isUpright ? forward : Eigen::Vector2d(-forward);
+        const Eigen::Vector2d up(-along.y(), along.x());
+        // Clear of the line where it bends inwards beside the text.
+        constexpr double kClearMm = 1.5;
+        double bulge = 0;
+        for (int i = 1; i < 8; ++i)
+          bulge = std::max(bulge, (pointAt(way, middle + (i / 8.0 - 0.5) * width) - a).dot(inward));
+        const double toBaseline = bulge + kClearMm + (isUpright ? 0 : height);
+        const Eigen::Vector2d at = (isUpright ? a : b) + toBaseline * inward;
+        bool fits = true;
+        for (int i = 0; i <= 8 && fits; ++i)
+          for (const double rise : {0.0, height})
+            fits = fits && isInside(sewLines, at + i / 8.0 * width * along + rise * up);
+        if (fits) return TextPlace{at, height, std::atan2(along.y(), along.x())};
+      }
+    }
+    return std::nullopt;
   }
 
   void writeBlock(std::size_t i) {

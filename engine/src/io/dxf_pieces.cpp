@@ -103,8 +103,14 @@ std::optional<CurveKind> lineKind(const std::string& layer) {
   return std::nullopt;
 }
 
-bool isNotchLayer(const std::string& layer) {
-  return layer == "4" || layer == "80" || layer == "81" || layer == "82" || layer == "83";
+/// Layer 4 holds slits, and V notches, which have a width.
+std::optional<NotchKind> notchKind(const DxfEntity& entity) {
+  if (entity.layer == "4") return entity.width.value_or(0) != 0 ? NotchKind::V : NotchKind::Slit;
+  if (entity.layer == "80") return NotchKind::T;
+  if (entity.layer == "81") return NotchKind::Castle;
+  if (entity.layer == "82") return NotchKind::Check;
+  if (entity.layer == "83") return NotchKind::U;
+  return std::nullopt;
 }
 
 class PieceReader {
@@ -239,7 +245,7 @@ class PieceReader {
         line.points = points;
         line.closed = entity.closed;
         piece.internalLines.push_back(std::move(line));
-      } else if (isNotchLayer(entity.layer) && entity.kind == DxfEntity::Kind::Point) {
+      } else if (notchKind(entity) && entity.kind == DxfEntity::Kind::Point) {
         piece.notches.push_back(notchAt(points.front(), entity, edges, cutLoops));
       } else if (entity.layer == "13" && entity.kind == DxfEntity::Kind::Point) {
         piece.drillHoles.push_back(points.front());
@@ -274,6 +280,10 @@ class PieceReader {
     constexpr double kUsualMm = 4;
     constexpr double kLeastMm = 1;  // less is a size in centimetres, or none
     notch.depth = depth < kLeastMm || depth > 40 ? kUsualMm : depth;
+    notch.kind = notchKind(entity).value_or(NotchKind::Slit);
+    if (notch.kind == NotchKind::Slit) return notch;
+    const double width = std::abs(entity.width.value_or(0)) * scale_;
+    notch.width = width < kLeastMm || width > 40 ? kUsualMm : width;
     return notch;
   }
 

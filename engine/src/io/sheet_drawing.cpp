@@ -13,6 +13,7 @@
 
 #include "finish/polygon.h"
 #include "io/file_date.h"
+#include "io/polyline.h"
 #include "render/label_fit.h"
 #include "toile/core/parallel.h"
 #include "toile/sew/sewing.h"
@@ -60,21 +61,6 @@ double readableAngle(const Vector2d& direction) {
   if (angle > 0.5 * pi + 1e-9) angle -= pi;
   if (angle < -0.5 * pi + 1e-9) angle += pi;
   return angle;
-}
-
-double lengthOf(const Points2& points) {
-  double length = 0;
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) length += (points[i + 1] - points[i]).norm();
-  return length;
-}
-
-Vector2d pointAt(const Points2& points, double along) {
-  for (std::size_t i = 0; i + 1 < points.size(); ++i) {
-    const double step = (points[i + 1] - points[i]).norm();
-    if (along <= step && step > 0) return points[i] + along / step * (points[i + 1] - points[i]);
-    along -= step;
-  }
-  return points.back();
 }
 
 class PieceArtist {

@@ -293,6 +293,38 @@ TEST(Finish, DartsAreNotchedAtTheirMouth) {
   EXPECT_TRUE(open->front().drillHoles.empty());
 }
 
+TEST(Finish, SymmetricPieceBecomesItsHalfOnTheFold) {
+  const Pattern pattern = test::makeTwoPiecePattern();
+  const std::vector<PatternPiece> pieces = finishedWith(pattern, [](Design& design) {
+    for (StylingCurve& curve : design.curves) curve.right.allowance.reset();
+  });
+  ASSERT_EQ(pieces.size(), 2u);
+  PatternPiece half = pieces[1];
+  ASSERT_TRUE(foldInHalf(half, pattern.cut.pieces[1], *pattern.flats[1]));
+  // The panel is 300..500 x 0..200; the wearer's left is at +x.
+  EXPECT_NEAR(signedArea(positions(half.sewLines[0])), 100 * 200, 1e-6);
+  EXPECT_NEAR(signedArea(positions(half.cutLines[0])), 110 * 220, 0.1);
+  for (const OutlinePoint& p : half.cutLines[0]) EXPECT_GE(p.position.x(), 400 - 1e-9);
+  // No allowance and no notch on the fold, which runs with the piece on its left.
+  ASSERT_TRUE(half.fold);
+  EXPECT_NEAR(((*half.fold)[0] - Eigen::Vector2d(400, 210)).norm(), 0, 1e-9);
+  EXPECT_NEAR(((*half.fold)[1] - Eigen::Vector2d(400, -10)).norm(), 0, 1e-9);
+  for (const Notch& notch : half.notches) EXPECT_GT(notch.position.x(), 401);
+  EXPECT_EQ(half.runs.back().curve, "fold");
+  EXPECT_EQ(half.runs.back().allowance, 0);
+  EXPECT_NEAR(half.runs.back().length, 200, 1e-9);
+  for (const OutlineRun& run : half.runs) EXPECT_NE(run.curve, "side") << "on the half that went";
+  ASSERT_EQ(half.internalLines.size(), 1u);
+  for (const Eigen::Vector2d& p : half.internalLines[0].points) EXPECT_GE(p.x(), 400 - 1e-9);
+  EXPECT_EQ(half.label[1], "Cut on fold");
+  for (const Eigen::Vector2d& p : half.grain) EXPECT_TRUE(isInside(positions(half.sewLines), p));
+  // What is not symmetric stays whole.
+  PatternPiece ell = pieces[0];
+  EXPECT_FALSE(foldInHalf(ell, pattern.cut.pieces[0], *pattern.flats[0]));
+  EXPECT_FALSE(ell.fold);
+  EXPECT_EQ(positions(ell.cutLines), positions(pieces[0].cutLines));
+}
+
 TEST(Finish, RefusesAPieceThatLiesWrongSideUp) {
   Pattern pattern = test::makeTwoPiecePattern();
   FlatPiece flat = *pattern.flats[0];

@@ -15,7 +15,9 @@
 
 #include "finish/polygon.h"
 #include "support/hand_made_pattern.h"
+#include "support/result_printing.h"
 #include "support/run_program.h"
+#include "toile/io/dxf_file.h"
 
 namespace toile {
 namespace {
@@ -192,7 +194,8 @@ TEST(Dxf, IsReadByEzdxfWithoutFaults) {
         EXPECT_TRUE(isNew);
       }
     EXPECT_EQ(vertices, marked);
-    EXPECT_EQ(on[2].size(), i == 0 ? 6u + 6u + 2u : 4u + 4u + 2u);
+    // The waist ends on the sew line, which passes smoothly there.
+    EXPECT_EQ(on[2].size(), i == 0 ? 6u + 6u : 4u + 4u);
 
     ASSERT_EQ(on[4].size(), piece.notches.size());
     for (const auto& e : on[4]) {
@@ -317,6 +320,70 @@ TEST(Dxf, HolesAreCutouts) {
     }
   }
   EXPECT_EQ(cutouts, 2);
+}
+
+TEST(Dxf, HalfHasItsMirrorLineOnTheOutline) {
+  Pattern pattern = test::makeTwoPiecePattern();
+  Design design = *pattern.document.design;
+  for (StylingCurve& curve : design.curves) curve.right.allowance.reset();
+  pattern.document.design = std::make_shared<const Design>(design);
+  auto pieces = finish(pattern.document, pattern.curves, pattern.cut, pattern.flats);
+  ASSERT_TRUE(pieces) << pieces.error();
+  pattern.pieces = *std::move(pieces);
+  ASSERT_TRUE(foldInHalf(pattern.pieces[1], pattern.cut.pieces[1], *pattern.flats[1]));
+  const nlohmann::json file = readWithEzdxf(SavedDxf(pattern).path);
+  nlohmann::json mirror;
+  nlohmann::json outline;
+  std::set<std::string> annotation;
+  for (const auto& e : file["blocks"]["PANEL_M"]) {
+    if (e["layer"] == 6) mirror = e;
+    if (e["layer"] == 1 && e["kind"] == "POLYLINE") outline = e;
+    if (e["layer"] == 15) annotation.insert(e["text"]);
+  }
+  ASSERT_EQ(mirror["kind"], "LINE");
+  // Digit for digit: ends of the edge of the cut line that lies on the fold.
+  const auto& points = outline["points"];
+  for (const auto& end : mirror["points"])
+    EXPECT_EQ(std::count(points.begin(), points.end(), end), 1) << end;
+  EXPECT_TRUE(annotation.contains("Cut on fold"));
+  for (const auto& e : file["blocks"]["ELL_M"]) EXPECT_NE(e["layer"], 6);
+}
+
+TEST(Dxf, NotchesOfEveryKindComeBack) {
+  struct Kind {
+    NotchKind kind;
+    const char* layer;
+  };
+  for (const Kind& each :
+       {Kind{NotchKind::Slit, "4"}, Kind{NotchKind::V, "4"}, Kind{NotchKind::T, "80"},
+        Kind{NotchKind::Castle, "81"}, Kind{NotchKind::Check, "82"}, Kind{NotchKind::U, "83"}}) {
+    Pattern pattern = test::makeTwoPiecePattern();
+    Design design = *pattern.document.design;
+    design.finish.notchKind = each.kind;
+    design.finish.notchWidth = Length::mm(5);
+    pattern.document.design = std::make_shared<const Design>(design);
+    auto pieces = finish(pattern.document, pattern.curves, pattern.cut, pattern.flats);
+    ASSERT_TRUE(pieces) << pieces.error();
+    pattern.pieces = *std::move(pieces);
+    const Result<DxfDrawing> drawing = readDxf(writeDxf(pattern).text);
+    ASSERT_TRUE(drawing) << drawing.error();
+    const Result<Pattern> again = patternFrom(*drawing, "again");
+    ASSERT_TRUE(again) << again.error();
+    for (std::size_t i = 0; i < 2; ++i) {
+      const std::vector<Notch>& written = pattern.pieces[i].notches;
+      std::size_t onLayer = 0;
+      for (const DxfEntity& entity : drawing->blocks[i].entities)
+        if (entity.layer == each.layer) ++onLayer;
+      EXPECT_EQ(onLayer, written.size()) << each.layer;
+      ASSERT_EQ(again->pieces[i].notches.size(), written.size());
+      for (std::size_t k = 0; k < written.size(); ++k) {
+        const Notch& notch = again->pieces[i].notches[k];
+        EXPECT_EQ(notch.kind, each.kind);
+        EXPECT_NEAR(notch.depth, written[k].depth, 1e-3);
+        EXPECT_NEAR(notch.width, each.kind == NotchKind::Slit ? 0 : 5, 1e-3);
+      }
+    }
+  }
 }
 
 TEST(Dxf, IsTheSameEveryTime) {

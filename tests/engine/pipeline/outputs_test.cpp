@@ -7,12 +7,15 @@
 #include <cmath>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <numbers>
 #include <sstream>
 
+#include "finish/polygon.h"
 #include "io/body_view.h"
 #include "support/run_program.h"
 #include "support/sample_designs.h"
 #include "toile/core/file.h"
+#include "toile/io/dxf_file.h"
 #include "toile/io/sewing_files.h"
 
 namespace toile::test {
@@ -110,6 +113,56 @@ TEST_F(WetsuitFiles, AreWithoutFaultForEzdxf) {
   EXPECT_EQ(file["faults"], nlohmann::json::array());
   EXPECT_EQ(file["blocks"].size(), pattern_->pieces.size());
   EXPECT_EQ(file["inserts"].size(), pattern_->pieces.size());
+}
+
+/// The corners of a text, in a font as wide as those of CAD programs are.
+Points2 cornersOf(const DxfEntity& text) {
+  const double angle = text.angle.value_or(0) * std::numbers::pi / 180;
+  const Eigen::Vector2d along(std::cos(angle), std::sin(angle));
+  const double width = 0.8 * text.height * static_cast<double>(text.text.size());
+  const Eigen::Vector2d up = text.height * Eigen::Vector2d(-along.y(), along.x());
+  const Eigen::Vector2d at = text.points.front();
+  return {at, at + width * along, at + width * along + up, at + up};
+}
+
+TEST_F(WetsuitFiles, HaveTextsInsideThePiecesAndNotchesOffTheirCorners) {
+  const Result<DxfDrawing> drawing = readDxf(*readFile(path("pattern.dxf")));
+  ASSERT_TRUE(drawing) << drawing.error();
+  std::size_t codes = 0;
+  for (const DxfBlock& block : drawing->blocks) {
+    Points2 cut;
+    std::vector<Eigen::Vector2d> corners;
+    for (const DxfEntity& entity : block.entities) {
+      if (entity.layer == "1" && entity.kind == DxfEntity::Kind::Polyline) cut = entity.points;
+      if (entity.layer == "2") corners.push_back(entity.points.front());
+    }
+    const EdgeGrid grid({cut});
+    for (const DxfEntity& entity : block.entities) {
+      if (entity.layer == "4") {
+        for (const Eigen::Vector2d& corner : corners)
+          EXPECT_GT((corner - entity.points.front()).norm(), 3) << block.name;
+      }
+      if (entity.kind != DxfEntity::Kind::Text) continue;
+      // The label may be no smaller than can be read, even if it reaches the allowance so.
+      for (const Eigen::Vector2d& p : cornersOf(entity)) {
+        const double outside = isInside({cut}, p) ? 0 : grid.nearest(p).distance;
+        EXPECT_LE(outside, entity.layer == "8" ? 4 : 1) << block.name << ": " << entity.text;
+      }
+      codes += entity.layer == "15" && entity.angle ? 1 : 0;
+    }
+  }
+  EXPECT_GT(codes, 60u);
+}
+
+TEST_F(WetsuitFiles, DrawEachInnerLineOfAPieceWhole) {
+  for (const PatternPiece& piece : pattern_->pieces)
+    for (const InternalLine& a : piece.internalLines)
+      for (const InternalLine& b : piece.internalLines) {
+        if (&a == &b || a.curve != b.curve || a.closed || b.closed) continue;
+        EXPECT_NE(a.points.front(), b.points.front()) << piece.name << ": " << a.name;
+        EXPECT_NE(a.points.front(), b.points.back()) << piece.name << ": " << a.name;
+        EXPECT_NE(a.points.back(), b.points.back()) << piece.name << ": " << a.name;
+      }
 }
 
 TEST_F(WetsuitFiles, AreDrawnByLibreCad) {
