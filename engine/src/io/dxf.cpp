@@ -256,7 +256,7 @@ class Writer {
     if (!wanted.empty() && !isWhole(wanted, size_))
       findings_.push_back({"dxf-size-changed",
                            fmt::format("the DXF calls the size \"{}\" {}: sizes there have at most "
-                                       "{} plain characters; the other files keep the name",
+                                       "{} plain characters; PDF, SVG and reports keep the name",
                                        wanted, size_, kMostSizeChars),
                            {}});
   }

@@ -10,6 +10,7 @@
 #include "io/pdf_canvas.h"
 #include "io/sewing_sheet.h"
 #include "toile/io/sewing_files.h"
+#include "toile/io/sheet_drawing.h"
 
 namespace toile {
 namespace {
@@ -79,9 +80,27 @@ class Writer {
   void row(std::span<const Column> columns, const std::vector<std::string>& cells, bool bold) {
     if (makeRoom(kFeedMm) && !bold) head(columns);
     y_ -= kFeedMm;
-    for (std::size_t i = 0; i < columns.size(); ++i)
-      canvas_.textFromLeft({columns[i].at, y_}, kTextMm, cells[i], bold, columns[i].width);
+    for (std::size_t i = 0; i < columns.size(); ++i) cell(columns[i], cells[i], bold);
     canvas_.line({{0, y_ - 1.4}, {kInnerMm, y_ - 1.4}}, false, {bold ? 0.3 : 0.1, {}}, kGrey);
+  }
+  /// What would get too small to read in one line takes two.
+  void cell(const Column& column, const std::string& text, bool bold) {
+    constexpr double kMostShrink = 1.5;
+    constexpr double kSmallMm = 2.3;
+    const std::size_t before = text.rfind(' ', text.size() / 2);
+    const std::size_t after = text.find(' ', text.size() / 2);
+    const bool isFirst =
+        before != std::string::npos &&
+        (after == std::string::npos || text.size() / 2 - before < after - text.size() / 2);
+    const std::size_t blank = isFirst ? before : after;
+    if (blank == std::string::npos || estimatedWidth(text, kTextMm) < kMostShrink * column.width) {
+      canvas_.textFromLeft({column.at, y_}, kTextMm, text, bold, column.width);
+      return;
+    }
+    canvas_.textFromLeft({column.at, y_ + 1.8}, kSmallMm, text.substr(0, blank), bold,
+                         column.width);
+    canvas_.textFromLeft({column.at, y_ - 0.6}, kSmallMm, text.substr(blank + 1), bold,
+                         column.width);
   }
   void head(std::span<const Column> columns) {
     std::vector<std::string> cells;
@@ -188,8 +207,8 @@ class Writer {
   void addSteps() {
     heading("Order of sewing", 3 * kFeedMm);
     constexpr Column kColumns[] = {
-        {"", 0, 4},         {"", 6, 6},       {"Edges", 14, 26},       {"Seam", 42, 32},
-        {"Pieces", 76, 42}, {"How", 120, 26}, {"Lengths mm", 148, 24}, {"min", 174, 6}};
+        {"", 0, 4},         {"", 6, 6},       {"Edges", 14, 24},       {"Seam", 40, 36},
+        {"Pieces", 78, 42}, {"How", 122, 24}, {"Lengths mm", 148, 24}, {"min", 174, 6}};
     head(kColumns);
     for (std::size_t s = 0; s < sheet_.plan.steps.size(); ++s) {
       const SewStep& step = sheet_.plan.steps[s];
