@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 #include <sched.h>
@@ -7,7 +8,9 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <cmath>
 #include <csignal>
 #include <cstring>
 #include <filesystem>
@@ -248,6 +251,139 @@ TEST(Make, StrictFailsOnFindingsOnly) {
   EXPECT_EQ(lax.status, 0) << lax.err;
   EXPECT_THAT(lax.err, testing::HasSubstr("finding: "));
   EXPECT_EQ(toile({"make", path, "--strict", "-o", folder.path() / "c"}).status, 1);
+}
+
+/// Part of a model beside a flat sheet of 16 cells (piece "Sheet", faces 0 to 31), as a design.
+class TwoParts {
+ public:
+  TwoParts() {
+    for (int j = 0; j <= 4; ++j) {
+      for (int i = 0; i <= 4; ++i) vertex(20 * i, 0, 20 * j);
+    }
+    cells(0, 4);
+    design_ = {
+        {"toile", 1},
+        {"name", "Two parts"},
+        {"models", {{{"model", "m.obj"}}}},
+        {"curves", nlohmann::json::array()},
+        {"pieces", {{{"id", "sheet"}, {"name", "Sheet"}, {"anchor", {{"near", {41, 0, 42}}}}}}}};
+  }
+  void vertex(double x, double y, double z) { mesh_ += fmt::format("v {} {} {}\n", x, y, z); }
+  void face(int a, int b, int c) { mesh_ += fmt::format("f {} {} {}\n", a + 1, b + 1, c + 1); }
+  /// A square grid over vertices that run row by row.
+  void cells(int first, int n) {
+    for (int j = 0; j < n; ++j) {
+      for (int i = 0; i < n; ++i) {
+        const int a = first + j * (n + 1) + i, c = a + n + 2;
+        face(a, a + 1, c);
+        face(a, c, a + n + 1);
+      }
+    }
+  }
+  void piece(const std::string& name, const std::array<double, 3>& near) {
+    design_["pieces"].push_back({{"id", name}, {"name", name}, {"anchor", {{"near", near}}}});
+  }
+  void feature(const std::string& id, const std::array<double, 3>& normal, int vertex) {
+    design_["curves"].push_back(
+        {{"id", id},
+         {"kind", "feature"},
+         {"way", {{"section", {{"normal", normal}, {"point", {{"vertex", vertex}}}}}}}});
+  }
+  /// Writes both files and makes the pattern. The part is refused by name and left out of every
+  /// cutting file; the sheet is made.
+  /// @return the failure as report.json tells it
+  nlohmann::json makeAllButOne(const std::string& failing, std::vector<std::string> options = {}) {
+    const TemporaryFolder folder;
+    const fs::path out = folder.path() / "out";
+    writeText(folder.path() / "m.obj", "# toile-units: mm\n" + mesh_);
+    writeText(folder.path() / "a.toile", design_.dump());
+    options.insert(options.begin(), {"make", folder.path() / "a.toile", "-o", out});
+    const ProgramResult result = toile(options);
+    EXPECT_EQ(result.status, 1);
+    EXPECT_THAT(result.err, testing::HasSubstr("toile: piece \"" + failing + "\": "));
+    if (!fs::exists(out / "report.json")) {
+      ADD_FAILURE() << result.err;
+      return {{"where", nlohmann::json::array()}};
+    }
+    for (const auto& [name, content] : filesIn(out)) {
+      EXPECT_THAT(name, testing::Not(testing::HasSubstr(failing)));
+      const bool isDrawing = name.ends_with(".svg") || name.ends_with(".dxf");
+      if (!isDrawing || name == "laser.dxf") continue;
+      EXPECT_THAT(content, testing::HasSubstr("Sheet")) << name;
+      EXPECT_THAT(content, testing::Not(testing::HasSubstr(failing))) << name;
+    }
+    const nlohmann::json report = nlohmann::json::parse(readText(out / "report.json"));
+    EXPECT_EQ(report["complete"], false);
+    EXPECT_EQ(report["failures"].size(), 1U);
+    const nlohmann::json failure = report["failures"].at(0);
+    EXPECT_EQ(failure["piece"], failing);
+    EXPECT_THAT(failure["where"],
+                testing::Contains(nlohmann::json{{"kind", "piece"}, {"name", failing}}));
+    EXPECT_THAT(readText(out / "report.html"),
+                testing::HasSubstr(failure["code"].get<std::string>()));
+    return failure;
+  }
+
+ private:
+  std::string mesh_;
+  nlohmann::json design_;
+};
+
+TEST(Make, AClosedPieceStopsNoOther) {
+  TwoParts parts;
+  for (const auto& [x, y, z] : {std::array{200, 0, 0}, {250, 0, 0}, {200, 50, 0}, {200, 0, 50}}) {
+    parts.vertex(x, y, z);
+  }
+  parts.face(25, 27, 26);
+  parts.face(25, 26, 28);
+  parts.face(25, 28, 27);
+  parts.face(26, 27, 28);
+  parts.piece("Ball", {210, 0, 10});
+  EXPECT_EQ(parts.makeAllButOne("Ball")["code"], "NotADisk");
+  EXPECT_EQ(parts.makeAllButOne("Ball", {"--auto-cut"})["code"], "NotADisk");
+}
+
+TEST(Make, AFaceWithoutAreaStopsOnlyItsPieceAndIsNamedOnTheModel) {
+  TwoParts parts;
+  for (const int x : {200, 210, 220}) parts.vertex(x, 0, 0);
+  parts.vertex(200, 0, 10);
+  parts.face(25, 26, 28);
+  parts.face(26, 27, 28);
+  parts.face(25, 27, 26);
+  parts.piece("Flap", {202, 0, 2});
+  const nlohmann::json failure = parts.makeAllButOne("Flap");
+  EXPECT_EQ(failure["code"], "DegenerateFace");
+  EXPECT_THAT(failure["message"].get<std::string>(), testing::HasSubstr("the first is face 34;"));
+  EXPECT_EQ(failure["where"][0], (nlohmann::json{{"kind", "face"}, {"index", 34}}));
+}
+
+// Every edge of a dome is a line: all its triangles are rigid, and it cannot lie flat.
+TEST(Make, LinesThatContradictEachOtherStopOnlyTheirPieceAndAreNamed) {
+  TwoParts parts;
+  const auto vertex = [](int i, int j) { return 25 + 7 * j + i; };
+  for (int j = 0; j <= 6; ++j) {
+    for (int i = 0; i <= 6; ++i) {
+      const double x = -60 + 20 * i, z = -60 + 20 * j;
+      parts.vertex(300 + x, -std::sqrt(1e4 - x * x - z * z), z);
+    }
+  }
+  parts.cells(25, 6);
+  parts.piece("Dome", {301, -100, 3});
+  for (int k = 1; k <= 5; ++k) {
+    parts.feature(fmt::format("x{}", k), {1, 0, 0}, vertex(k, 3));
+    parts.feature(fmt::format("z{}", k), {0, 0, 1}, vertex(3, k));
+    parts.feature(fmt::format("d{}", k), {1, 0, -1}, vertex(k, 3));
+  }
+  const nlohmann::json failure = parts.makeAllButOne("Dome");
+  EXPECT_EQ(failure["code"], "LengthsInfeasible");
+  EXPECT_THAT(failure["where"],
+              testing::Contains(nlohmann::json{{"kind", "curve"}, {"name", "d3"}}));
+  for (const nlohmann::json& element : failure["where"]) {
+    EXPECT_NE(element["kind"], "edge") << "of the piece's own mesh";
+    if (element["kind"] == "face") {
+      EXPECT_GE(element["index"], 32) << "a face of the sheet";
+    }
+  }
 }
 
 TEST(Make, NamesThePieceThatCannotLieFlat) {

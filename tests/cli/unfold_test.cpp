@@ -122,5 +122,28 @@ TEST_F(UnfoldCommand, RefusesWithOneSentenceAndWritesNothing) {
   EXPECT_FALSE(std::filesystem::exists(out_));
 }
 
+TEST_F(UnfoldCommand, RefusesMeshesThatNoPlaneCanBeMadeOfAndNamesWhere) {
+  struct Case {
+    std::string mesh, sentence;
+  };
+  const std::string square = "v 0 0 0\nv 10 0 0\nv 10 10 0\nv 0 10 0\nf 1 2 3\nf 1 3 4\n";
+  for (const Case& each : std::initializer_list<Case>{
+           {"", "is empty"},
+           {"v 0 0 0\nv 10 nan 0\nv 0 10 0\nf 1 2 3\n", "line 2: \"nan\""},
+           {"v 0 0 0\nv 10 0 0\nv 20 0 0\nv 0 10 0\nf 1 2 4\nf 2 3 4\nf 1 3 2\n", "face 2"},
+           // A border edge of no length.
+           {square + "v 0 10 0\nf 3 5 4\n", "face 2"},
+           {square + "g wire_feature_across\nl 2 4\n", "\"across\""},
+           {"v 0 0 0\nv 9 0 0\nv 0 9 0\nv 0 0 9\nf 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n",
+            "closed"}}) {
+    writeText(in_, each.mesh);
+    const ProgramResult result = run({"--units", "mm"});
+    EXPECT_EQ(result.status, 1) << each.mesh;
+    EXPECT_THAT(result.err, HasSubstr(each.sentence));
+    EXPECT_EQ(result.out, "");
+    EXPECT_FALSE(std::filesystem::exists(out_));
+  }
+}
+
 }  // namespace
 }  // namespace toile::test

@@ -30,14 +30,15 @@ void append(std::vector<Finding>& all, const std::vector<Finding>& more) {
   all.insert(all.end(), more.begin(), more.end());
 }
 
-/// Adds the proposed cuts of every piece that cannot lie flat. @return whether there were any
-Result<bool> addProposedCuts(Pattern& pattern, std::vector<Finding>& findings) {
+/// Adds the proposed cuts of every piece that cannot lie flat. One for which there are none fails
+/// by itself, as the finding of its cut tells. @return whether there were any
+bool addProposedCuts(Pattern& pattern, std::vector<Finding>& findings) {
   Design design = *pattern.document.design;
   bool added = false;
   for (const Piece& piece : pattern.cut.pieces) {
     if (!piece.include || topology(piece).canLieFlat()) continue;
     const Result<std::vector<StylingCurve>> cuts = proposeCuts(piece, *pattern.document.model);
-    if (!cuts) return cuts.error().during(quoted(piece));
+    if (!cuts) continue;
     for (StylingCurve curve : *cuts) {
       curve.id = freeCurveId(design, curve.id);
       findings.push_back({"auto-cut",
@@ -139,14 +140,29 @@ PatternCache::Entry solve(const Piece& piece, const PieceSymmetry* symmetry,
   return entry;
 }
 
-/// Faces of a piece are told as those of the model that they are parts of.
+/// Elements of a piece's mesh are told as the faces of the model that they are parts of.
 void nameOnModel(const Piece& piece, std::vector<Element>& where) {
-  for (Element& element : where) {
-    if (element.kind == Element::Kind::Face) {
-      element = Element::face(piece.sourceFace[FaceId(element.index)]);
+  std::vector<Element> named;
+  for (const Element& element : where) {
+    Element told = element;
+    const auto tell = [&](FaceId face) { told = Element::face(piece.sourceFace[face]); };
+    switch (element.kind) {
+      case Element::Kind::Face:
+        tell(FaceId(element.index));
+        break;
+      case Element::Kind::Edge:
+        tell(piece.mesh->face(piece.mesh->halfedge(EdgeId(element.index))));
+        break;
+      case Element::Kind::Vertex:
+        tell(piece.mesh->facesAround(VertexId(element.index)).front());
+        break;
+      default:
+        break;
     }
+    if (std::find(named.begin(), named.end(), told) == named.end()) named.push_back(told);
   }
-  where.push_back(Element::piece(piece.id));
+  named.push_back(Element::piece(piece.id));
+  where = std::move(named);
 }
 
 }  // namespace
@@ -189,9 +205,7 @@ Result<Symmetries> placeAndCutOpen(Pattern& pattern, const MakeOptions& options,
                                    Progress* progress) {
   Result<Symmetries> symmetries = placeAndCut(pattern, options, progress);
   for (int round = 0; symmetries && options.autoCut && round < kMaxAutoCutRounds; ++round) {
-    const Result<bool> added = addProposedCuts(pattern, pattern.findings);
-    if (!added) return added.error();
-    if (!*added) break;
+    if (!addProposedCuts(pattern, pattern.findings)) break;
     symmetries = placeAndCut(pattern, options, progress);
   }
   return symmetries;
@@ -282,7 +296,10 @@ void takeEntries(Pattern& pattern, const std::vector<const PatternCache::Entry*>
     const PatternCache::Entry& entry = *entries[i];
     pattern.flats[i] = entry.flat;
     pattern.developed[i] = named(entry.developed, pieces[i]);
-    if (entry.error) pattern.failures[i] = entry.error->during(quoted(pieces[i]));
+    if (entry.error) {
+      pattern.failures[i] = entry.error->during(quoted(pieces[i]));
+      nameOnModel(pieces[i], pattern.failures[i]->where);
+    }
     if (!entry.flat) continue;
     if (entry.developed) {
       for (Finding finding : entry.developed->findings) {

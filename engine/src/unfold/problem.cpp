@@ -97,7 +97,8 @@ Result<void> addTriangles(const Piece& piece, Problem& problem) {
     return Error{ErrorCode::DegenerateFace,
                  fmt::format("{} face{} without area, the first is face {}; remove or repair them",
                              flat.size() == kMaxNamed ? "many" : fmt::format("{}", flat.size()),
-                             flat.size() == 1 ? "" : "s", flat.front().index),
+                             flat.size() == 1 ? "" : "s",
+                             piece.sourceFace[FaceId(flat.front().index)].index()),
                  flat};
   }
   return {};
