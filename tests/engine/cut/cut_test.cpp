@@ -187,6 +187,48 @@ TEST(Cut, ProposesTwoCutsForTrousers) {
   EXPECT_TRUE(topology(opened->pieces[0]).isDisk());
 }
 
+// A tube that is its own mirror image, longest in the middle: its shortest way runs down one side,
+// and the piece would be lopsided.
+TEST(Cut, ProposesACutOnTheMiddleOfASymmetricTube) {
+  const Mesh straight = test::cylinder(50, 200, 40, 12);
+  std::vector<Eigen::Vector3d> positions = straight.positions();
+  for (Eigen::Vector3d& p : positions) {
+    p.z() *= 1 - 0.2 * std::abs(p.x()) / 50 - 0.05 * p.y() / 50;
+    p.x() *= 1.5;
+  }
+  const Mesh mesh = straight.withPositions(positions);
+  const Document document = documentOf(mesh);
+  const auto result = cut(document, {});
+  ASSERT_TRUE(result) << result.error();
+  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  ASSERT_TRUE(cuts) << cuts.error();
+  ASSERT_EQ(cuts->size(), 1U);
+  for (const ModelPoint& p : (*cuts)[0].dataPoints) {
+    const Eigen::Vector3d at = position(mesh, *toSurfacePoint(mesh, p));
+    EXPECT_NEAR(at.x(), 0, 1e-6);
+    EXPECT_GT(at.y(), 0) << "the shorter of both ways";
+  }
+}
+
+// Both legs of trousers are joined to the waist, each on its side.
+TEST(Cut, ProposesCutsInPairsForASymmetricPiece) {
+  const Mesh mesh = test::trousers();
+  const Document document = documentOf(mesh);
+  const auto result = cut(document, {});
+  ASSERT_TRUE(result) << result.error();
+  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  ASSERT_TRUE(cuts) << cuts.error();
+  ASSERT_EQ(cuts->size(), 2U);
+  const auto tip = [&](std::size_t cut, bool atStart) {
+    const auto& points = (*cuts)[cut].dataPoints;
+    return position(mesh, *toSurfacePoint(mesh, atStart ? points.front() : points.back()));
+  };
+  for (const bool atStart : {false, true}) {
+    const Eigen::Vector3d a = tip(0, atStart), b = tip(1, atStart);
+    EXPECT_LT((Eigen::Vector3d(-a.x(), a.y(), a.z()) - b).norm(), 1e-6);
+  }
+}
+
 TEST(Cut, RefusesToProposeCutsForHandlesAndClosedSurfaces) {
   for (const Mesh& mesh : {test::torus(60, 20, 16, 9), test::icosphere(50, 1)}) {
     const Document document = documentOf(mesh);

@@ -140,8 +140,8 @@ struct PieceTopology {
 };
 [[nodiscard]] PieceTopology topology(const Piece& piece);
 
-/// Shortest cuts on the surface that would make the piece lie flat: seams for tubes (loop to loop),
-/// as curves to add to the design with ids "autocut-<piece>-<n>".
+/// Shortest cuts that make the piece lie flat: seams for tubes (loop to loop), on the middle or in
+/// pairs where it is nearly symmetric; curves to add with ids "autocut-<piece>-<n>".
 Result<std::vector<StylingCurve>> proposeCuts(const Piece& piece, const ReferenceModel& model);
 
 }  // namespace toile
