@@ -6,11 +6,13 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 #include <queue>
 
 #include "develop/curvature_potential.h"
 #include "develop/wire_vertices.h"
 #include "toile/curve/geodesic.h"
+#include "toile/mesh/surface_index.h"
 #include "unfold/symmetry.h"
 
 namespace toile::developing {
@@ -32,6 +34,8 @@ constexpr double kCornerDistance = 0.015;
 constexpr double kSymmetric = 0.02;
 /// What is on the middle of a symmetric piece, as a share of its boundary.
 constexpr double kMiddle = 0.006;
+/// A way on the middle is straight between so many points of it.
+constexpr int kMiddleParts = 8;
 /// Darts spread evenly round a dome: at most so many, their mouths off their places by at most this
 /// share of the distance between them, the longest so much longer than the shortest.
 constexpr std::size_t kMaxStar = 6;
@@ -191,10 +195,53 @@ class PathFinder {
       });
       if (isNear) continue;
       taken.push_back(mouth);
-      Result<SurfacePath> way = linker_.link({mouth}, {apex});
+      Result<SurfacePath> way = isOnMiddle(mouth) && isOnMiddle(apex)
+                                    ? wayOnMiddle(mouth, apex)
+                                    : linker_.link({mouth}, {apex});
       if (way && staysFree(*way)) ways.push_back(*std::move(way));
     }
     return ways;
+  }
+
+  /// The way along the middle of a symmetric piece. Over a bulge it is straight but not the
+  /// shortest: a link would slip off to one side, so it is led through points of the middle.
+  [[nodiscard]] Result<SurfacePath> wayOnMiddle(VertexId mouth, VertexId apex) {
+    if (!index_) index_.emplace(piece_.mesh);
+    std::vector<SurfacePoint> points{{mouth}, {apex}};
+    double shortest = kFar;
+    for (const SurfacePath& section : index_->planeSection(mirror_->normal, mirror_->offset)) {
+      const std::optional<double> begin = fractionAt(section, mouth),
+                                  end = fractionAt(section, apex);
+      if (!begin || !end || *begin == *end) continue;
+      for (const bool isReversed : {false, true}) {
+        if (isReversed && !section.closed) continue;
+        const SurfacePath part = isReversed ? subPath(mesh_, section, *end, *begin)
+                                            : subPath(mesh_, section, *begin, *end);
+        if (length(mesh_, part) >= shortest) continue;
+        shortest = length(mesh_, part);
+        points.assign({{mouth}});
+        for (int k = 1; k < kMiddleParts; ++k) {
+          const double share =
+              static_cast<double>(isReversed ? kMiddleParts - k : k) / kMiddleParts;
+          points.push_back(pointAtFraction(mesh_, part, share));
+        }
+        points.push_back({apex});
+      }
+    }
+    return linker_.linkAll(points, false);
+  }
+  /// Where a section passes a vertex of the middle, as a share of its length.
+  [[nodiscard]] std::optional<double> fractionAt(const SurfacePath& section, VertexId v) const {
+    double nearest = kMiddle * boundaryLength_, passed = 0, found = -1;
+    for (std::size_t i = 0; i < section.points.size(); ++i) {
+      const Eigen::Vector3d at = toile::position(mesh_, section.points[i]);
+      if (i > 0) passed += (at - toile::position(mesh_, section.points[i - 1])).norm();
+      if ((at - position(v)).norm() >= nearest) continue;
+      nearest = (at - position(v)).norm();
+      found = passed;
+    }
+    if (found < 0) return std::nullopt;
+    return found / length(mesh_, section);
   }
 
   [[nodiscard]] VertexData<double> distancesFrom(VertexId apex) const {
@@ -405,6 +452,7 @@ class PathFinder {
   VertexData<double> potential_;
   GeodesicLinker linker_;
   std::optional<unfolding::MirrorPlane> mirror_;
+  std::optional<SurfaceIndex> index_;
   double boundaryLength_ = 0;
   VertexData<char> canBegin_;
   VertexData<double> along_;
