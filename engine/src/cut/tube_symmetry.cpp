@@ -23,7 +23,9 @@ Moments momentsOf(const Mesh& mesh) {
   Moments sums;
   Eigen::Matrix3d second = Eigen::Matrix3d::Zero();
   for (const Triangle& t : mesh.triangles()) {
-    const Eigen::Vector3d a = mesh.position(t[0]), b = mesh.position(t[1]), c = mesh.position(t[2]);
+    const Eigen::Vector3d& a = mesh.position(t[0]);
+    const Eigen::Vector3d& b = mesh.position(t[1]);
+    const Eigen::Vector3d& c = mesh.position(t[2]);
     const double area = 0.5 * (b - a).cross(c - a).norm();
     const Eigen::Vector3d at = (a + b + c) / 3;
     sums.area += area;
