@@ -113,12 +113,10 @@ TEST_F(WetsuitTiles, GoOnAcrossEveryEdge) {
     };
     const Eigen::Vector2d& low = tile.box.min;
     const Eigen::Vector2d& high = tile.box.max;
-    check(plan.find(tile.row, tile.column + 1),
-          {{high.x() - kBesideMm, low.y() + kFromCornerMm},
-           {high.x() + kBesideMm, high.y() - kFromCornerMm}});
-    check(plan.find(tile.row + 1, tile.column),
-          {{low.x() + kFromCornerMm, low.y() - kBesideMm},
-           {high.x() - kFromCornerMm, low.y() + kBesideMm}});
+    check(plan.find(tile.row, tile.column + 1), {{high.x() - kBesideMm, low.y() + kFromCornerMm},
+                                                 {high.x() + kBesideMm, high.y() - kFromCornerMm}});
+    check(plan.find(tile.row + 1, tile.column), {{low.x() + kFromCornerMm, low.y() - kBesideMm},
+                                                 {high.x() - kFromCornerMm, low.y() + kBesideMm}});
   }
   EXPECT_EQ(plan.tiles.size(), 62u);
   EXPECT_GE(edges, 62);
