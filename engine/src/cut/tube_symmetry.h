@@ -16,8 +16,8 @@ using TubeEnd = std::vector<VertexId>;
 struct TubeSymmetry {
   Eigen::Vector3d normal = Eigen::Vector3d::UnitX();
   double offset = 0;
-  double tolerance = 0;                ///< mm: what counts as the same place
-  std::vector<std::size_t> imageOf;    ///< per end: the end on the other side, or itself
+  double tolerance = 0;              ///< mm: what counts as the same place
+  std::vector<std::size_t> imageOf;  ///< per end: the end on the other side, or itself
   [[nodiscard]] double height(const Eigen::Vector3d& p) const { return normal.dot(p) - offset; }
   [[nodiscard]] Eigen::Vector3d image(const Eigen::Vector3d& p) const {
     return p - 2 * height(p) * normal;
