@@ -35,7 +35,7 @@ constexpr double kSymmetric = 0.02;
 /// What is on the middle of a symmetric piece, as a share of its boundary.
 constexpr double kMiddle = 0.006;
 /// A way on the middle is straight between so many points of it.
-constexpr int kMiddleParts = 8;
+constexpr int kMiddleParts = 24;
 /// Darts spread evenly round a dome: at most so many, their mouths off their places by at most this
 /// share of the distance between them, the longest so much longer than the shortest.
 constexpr std::size_t kMaxStar = 6;

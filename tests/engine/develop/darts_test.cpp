@@ -154,6 +154,30 @@ TEST(Darts, OfASymmetricPieceAreItsMirrorImages) {
   EXPECT_TRUE(hasPair);
 }
 
+/// Two bumps on the middle: the shortest way from the edge to the farther one goes round the nearer
+/// one, the middle over it.
+TEST(Darts, OnTheMiddleStayThere) {
+  const Mesh bumps = test::heightField(20, 20, 10, [](double x, double y) {
+    const double u = (x - 100) / 25, v = (y - 50) / 25, w = (y - 120) / 30;
+    return 45 * std::exp(-u * u - v * v) + 60 * std::exp(-u * u - w * w);
+  });
+  const Piece piece = test::patchOf(bumps);
+  const Result<FlatPiece> flat = unfold(piece);
+  ASSERT_TRUE(flat) << flat.error();
+  const auto proposals = adviseDarts(piece, *flat);
+  ASSERT_TRUE(proposals) << proposals.error();
+  bool isOverBump = false;
+  for (const DartProposal& proposal : *proposals) {
+    if (proposal.kind == DartProposal::Kind::Cut || !proposal.companions.empty()) continue;
+    for (const SurfacePoint& point : proposal.path.points) {
+      const Eigen::Vector3d at = position(bumps, point);
+      EXPECT_NEAR(at.x(), 100, 1);
+      if (at.y() > 40 && at.y() < 60) isOverBump = true;
+    }
+  }
+  EXPECT_TRUE(isOverBump);
+}
+
 TEST(Darts, AreNotPutWhereNoneIsNeeded) {
   const Result<AutoDart> made =
       autoDart(patchOfMesh(test::halfCylinder(80, 300, 16, 20)), "sleeve", Ratio::percent(5));
