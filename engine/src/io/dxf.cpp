@@ -253,7 +253,8 @@ class Writer {
     const std::string& wanted = design_.order.size;
     const std::string plain = toPlainName(wanted, kMostSizeChars);
     size_ = makeUnique(plain.empty() ? "ONE" : plain, kMostSizeChars, takenSizes);
-    if (!wanted.empty() && !isWhole(wanted, size_))
+    // One that is cut short, such as "made to measure", still says what it is.
+    if (!wanted.empty() && (plain.empty() || size_ != plain))
       findings_.push_back({"dxf-size-changed",
                            fmt::format("the DXF calls the size \"{}\" {}: sizes there have at most "
                                        "{} plain characters; PDF, SVG and reports keep the name",
