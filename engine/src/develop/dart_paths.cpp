@@ -36,6 +36,8 @@ constexpr double kSymmetric = 0.02;
 constexpr double kMiddle = 0.006;
 /// A way on the middle is straight between so many points of it.
 constexpr int kMiddleParts = 24;
+/// An end beside the middle is joined to it over so many times its distance: no hook.
+constexpr double kBlend = 8;
 /// Darts spread evenly round a dome: at most so many, their mouths off their places by at most this
 /// share of the distance between them, the longest so much longer than the shortest.
 constexpr std::size_t kMaxStar = 6;
@@ -223,6 +225,10 @@ class PathFinder {
         for (int k = 1; k < kMiddleParts; ++k) {
           const double share =
               static_cast<double>(isReversed ? kMiddleParts - k : k) / kMiddleParts;
+          const double passed = shortest * k / kMiddleParts;
+          if (passed < kBlend * offMiddle(mouth) || shortest - passed < kBlend * offMiddle(apex)) {
+            continue;
+          }
           points.push_back(pointAtFraction(mesh_, part, share));
         }
         points.push_back({apex});
@@ -356,8 +362,10 @@ class PathFinder {
   }
   /// Of a symmetric piece: no farther from its middle than a share of its outline.
   [[nodiscard]] bool isOnMiddle(VertexId v) const {
-    return mirror_ && std::abs(mirror_->normal.dot(mesh_.position(v)) - mirror_->offset) <
-                          kMiddle * boundaryLength_;
+    return mirror_ && offMiddle(v) < kMiddle * boundaryLength_;
+  }
+  [[nodiscard]] double offMiddle(VertexId v) const {
+    return std::abs(mirror_->normal.dot(mesh_.position(v)) - mirror_->offset);
   }
   [[nodiscard]] std::optional<VertexId> nearestMouth(const Eigen::Vector3d& place) const {
     std::optional<VertexId> nearest;

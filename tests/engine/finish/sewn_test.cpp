@@ -106,8 +106,7 @@ TEST_F(Sewn, AllowancesEndOnEachOther) {
       // Where the outline goes straight on, or turns inwards, there is no corner of the allowance.
       if (own < 0.1 || other < 0.1 || own > 40 || other > 40) continue;
       ++compared;
-      EXPECT_NEAR(own, other, kMatchMm)
-          << a.name << ", " << b.name << ", " << runA.curve;
+      EXPECT_NEAR(own, other, kMatchMm) << a.name << ", " << b.name << ", " << runA.curve;
     }
   }
   EXPECT_GE(compared, 12u);
