@@ -42,8 +42,8 @@ bool addProposedCuts(Pattern& pattern, std::vector<Finding>& findings) {
     for (StylingCurve curve : *cuts) {
       curve.id = freeCurveId(design, curve.id);
       findings.push_back({"auto-cut",
-                          fmt::format("{} could not lie flat and was cut open along \"{}\", the "
-                                      "shortest way; draw a seam to choose another place",
+                          fmt::format("{} could not lie flat and was cut open along \"{}\"; draw a "
+                                      "seam to choose another place",
                                       quoted(piece), curve.id),
                           {Element::piece(piece.id), Element::curve(curve.id)}});
       design.curves.push_back(std::move(curve));
