@@ -215,10 +215,13 @@ Result<BodyFit> fitBody(const Scan& scan, const BodyFitOptions& options, Progres
   common.limits = options.limits;
   const Error cancelled{ErrorCode::Cancelled, "the fit was cancelled", {}};
 
-  const Result<ReferenceModel> standing = makeBody({});
-  if (!standing) return standing.error();
-  const std::vector<std::string> unused = landmarksWithoutPlace(common.landmarks, *standing);
-  for (const std::string& name : unused) common.landmarks.erase(name);
+  std::vector<std::string> unused;
+  if (!common.landmarks.empty()) {
+    const Result<ReferenceModel> standing = makeBody({});
+    if (!standing) return standing.error();
+    unused = landmarksWithoutPlace(common.landmarks, *standing);
+    for (const std::string& name : unused) common.landmarks.erase(name);
+  }
 
   if (progress != nullptr) progress->step("fit: scan");
   Result<Target> target = prepareTarget(scan);

@@ -289,32 +289,18 @@ class Writer {
     const Vector2d size(84, 15);
     Box2 best;
     std::size_t fewest = std::numeric_limits<std::size_t>::max();
-    // The diamond of the neighbour is in the middle of the side.
-    for (const auto& [right, up] : {std::pair{0.0, 0.0},
-                                    {0.0, 1.0},
-                                    {1.0, 0.0},
-                                    {1.0, 1.0},
-                                    {0.0, 0.1},
-                                    {0.0, 0.9},
-                                    {1.0, 0.1},
-                                    {1.0, 0.9},
-                                    {0.0, 0.2},
-                                    {0.0, 0.8},
-                                    {1.0, 0.2},
-                                    {1.0, 0.8},
-                                    {0.0, 0.3},
-                                    {0.0, 0.7},
-                                    {1.0, 0.3},
-                                    {1.0, 0.7}}) {
-      const Vector2d room = tile.box.size() - size - Vector2d(2, 2) * kInsetMm;
-      const Vector2d low =
-          tile.box.min + Vector2d(kInsetMm + right * room.x(), kInsetMm + up * room.y());
-      const Box2 box{low, low + size};
-      const std::size_t count = clutterIn(box);
-      if (count >= fewest) continue;
-      fewest = count;
-      best = box;
-    }
+    // Corners first. The diamond of the neighbour is in the middle of the side.
+    for (const double up : {0.0, 1.0, 0.1, 0.9, 0.2, 0.8, 0.3, 0.7})
+      for (const double right : {0.0, 1.0}) {
+        const Vector2d room = tile.box.size() - size - Vector2d(2, 2) * kInsetMm;
+        const Vector2d low =
+            tile.box.min + Vector2d(kInsetMm + right * room.x(), kInsetMm + up * room.y());
+        const Box2 box{low, low + size};
+        const std::size_t count = clutterIn(box);
+        if (count >= fewest) continue;
+        fewest = count;
+        best = box;
+      }
     canvas_.setShift(corner_ - tile.box.min + best.min);
     canvas_.textFromLeft({0, 8}, 7, tile.name(), true);
     canvas_.line({{22, 8}, {22, 14}}, false, kSquare);

@@ -30,10 +30,13 @@ struct LivePattern::State {
   std::map<std::string, std::unique_ptr<UnfoldPreview>> previews;  ///< by piece id
   std::size_t previewed = 0;
   std::size_t reused = 0;
-  /// Of the last answer, by piece id.
-  std::map<std::string, std::shared_ptr<const FlatPiece>> flats;
-  std::map<std::string, PatternPiece> finished;
-  std::map<std::string, Placement> placements;
+  /// A piece of the last answer.
+  struct Shown {
+    std::shared_ptr<const FlatPiece> flat;
+    PatternPiece piece;
+    Placement placement;
+  };
+  std::map<std::string, Shown> shown;  ///< by piece id
   std::shared_ptr<const ReferenceModel> model;
 
   Result<Pattern> preview(const Document& document, std::set<std::size_t>& touched,
@@ -103,10 +106,9 @@ std::vector<const PatternPiece*> LivePattern::State::untouched(const Pattern& pa
   std::vector<const PatternPiece*> known(pattern.cut.pieces.size(), nullptr);
   if (pattern.document.model != model) return known;
   for (std::size_t i = 0; i < known.size(); ++i) {
-    const auto flat = flats.find(pattern.cut.pieces[i].id);
-    const auto piece = finished.find(pattern.cut.pieces[i].id);
-    if (flat == flats.end() || piece == finished.end()) continue;
-    if (flat->second == pattern.flats[i]) known[i] = &piece->second;
+    const auto before = shown.find(pattern.cut.pieces[i].id);
+    if (before == shown.end() || before->second.flat != pattern.flats[i]) continue;
+    known[i] = &before->second.piece;
   }
   return known;
 }
@@ -117,13 +119,14 @@ Result<void> LivePattern::State::keepPlaces(Pattern& pattern, Progress* progress
   Layout layout;
   bool isFirst = true;
   for (const PatternPiece& piece : pattern.pieces) {
-    const auto place = placements.find(piece.id);
-    if (pattern.document.model != model || place == placements.end()) {
+    const auto before = shown.find(piece.id);
+    if (pattern.document.model != model || before == shown.end()) {
       return stages::arrangePieces(pattern, progress);
     }
-    layout.placements.push_back(place->second);
+    const Placement& place = before->second.placement;
+    layout.placements.push_back(place);
     for (const OutlinePoint& point : piece.cutLines.front()) {
-      const Eigen::Vector2d p = place->second.apply(point.position);
+      const Eigen::Vector2d p = place.apply(point.position);
       layout.min = isFirst ? p : layout.min.cwiseMin(p).eval();
       layout.max = isFirst ? p : layout.max.cwiseMax(p).eval();
       isFirst = false;
@@ -136,7 +139,6 @@ Result<void> LivePattern::State::keepPlaces(Pattern& pattern, Progress* progress
 LiveAnswer LivePattern::State::answer(Pattern pattern, const std::set<std::size_t>& touched) {
   LiveAnswer answer;
   const std::vector<Piece>& pieces = pattern.cut.pieces;
-  std::map<std::string, std::shared_ptr<const FlatPiece>> now;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
     LivePiece& piece = answer.pieces.emplace_back();
     if (!pieces[i].include) continue;
@@ -145,19 +147,16 @@ LiveAnswer LivePattern::State::answer(Pattern pattern, const std::set<std::size_
       continue;
     }
     piece.state = touched.contains(i) ? LivePiece::State::Preview : LivePiece::State::Full;
-    const auto before = flats.find(pieces[i].id);
-    piece.isReused = before != flats.end() && before->second == pattern.flats[i];
+    const auto before = shown.find(pieces[i].id);
+    piece.isReused = before != shown.end() && before->second.flat == pattern.flats[i];
     if (piece.isReused) ++reused;
-    now[pieces[i].id] = pattern.flats[i];
   }
-  flats = std::move(now);
-  std::erase_if(previews, [&](const auto& entry) { return !flats.contains(entry.first); });
-  finished.clear();
-  placements.clear();
+  shown.clear();
   for (std::size_t k = 0; k < pattern.pieces.size(); ++k) {
-    placements[pattern.pieces[k].id] = pattern.layout.placements[k];
-    finished[pattern.pieces[k].id] = pattern.pieces[k];
+    const PatternPiece& piece = pattern.pieces[k];
+    shown[piece.id] = {pattern.flats[pattern.pieceIndex[k]], piece, pattern.layout.placements[k]};
   }
+  std::erase_if(previews, [&](const auto& entry) { return !shown.contains(entry.first); });
   model = pattern.document.model;
   answer.pattern = std::move(pattern);
   return answer;

@@ -35,6 +35,13 @@ Document documentOf(Mesh mesh, std::vector<PieceRecord> records = {}) {
   return {design, model};
 }
 
+/// Of a model's one piece.
+Result<std::vector<StylingCurve>> proposedCuts(const Document& document) {
+  const Result<CutResult> result = cut(document, {});
+  if (!result) return result.error();
+  return proposeCuts(result->pieces[0], *document.model);
+}
+
 PieceRecord recordAt(std::string id, FaceId face) {
   PieceRecord record;
   record.id = std::move(id);
@@ -148,10 +155,7 @@ TEST(Cut, ProposesACutWhereATubeIsShortest) {
   std::vector<Eigen::Vector3d> positions = straight.positions();
   for (Eigen::Vector3d& p : positions) p.z() *= 1 + 0.4 * p.x() / 50 - 0.1 * p.y() / 50;
   const Mesh mesh = straight.withPositions(positions);
-  const Document document = documentOf(mesh);
-  const auto result = cut(document, {});
-  ASSERT_TRUE(result) << result.error();
-  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  const auto cuts = proposedCuts(documentOf(mesh));
   ASSERT_TRUE(cuts) << cuts.error();
   ASSERT_EQ(cuts->size(), 1U);
   std::vector<SurfacePoint> points;
@@ -169,9 +173,7 @@ TEST(Cut, ProposesACutWhereATubeIsShortest) {
 TEST(Cut, ProposesTwoCutsForTrousers) {
   const Mesh mesh = test::trousers();
   const Document document = documentOf(mesh);
-  const auto result = cut(document, {});
-  ASSERT_TRUE(result) << result.error();
-  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  const auto cuts = proposedCuts(document);
   ASSERT_TRUE(cuts) << cuts.error();
   ASSERT_EQ(cuts->size(), 2U);
   std::vector<PlacedCurve> curves;
@@ -197,10 +199,7 @@ TEST(Cut, ProposesACutOnTheMiddleOfASymmetricTube) {
     p.x() *= 1.5;
   }
   const Mesh mesh = straight.withPositions(positions);
-  const Document document = documentOf(mesh);
-  const auto result = cut(document, {});
-  ASSERT_TRUE(result) << result.error();
-  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  const auto cuts = proposedCuts(documentOf(mesh));
   ASSERT_TRUE(cuts) << cuts.error();
   ASSERT_EQ(cuts->size(), 1U);
   for (const ModelPoint& p : (*cuts)[0].dataPoints) {
@@ -213,10 +212,7 @@ TEST(Cut, ProposesACutOnTheMiddleOfASymmetricTube) {
 // Both legs of trousers are joined to the waist, each on its side.
 TEST(Cut, ProposesCutsInPairsForASymmetricPiece) {
   const Mesh mesh = test::trousers();
-  const Document document = documentOf(mesh);
-  const auto result = cut(document, {});
-  ASSERT_TRUE(result) << result.error();
-  const auto cuts = proposeCuts(result->pieces[0], *document.model);
+  const auto cuts = proposedCuts(documentOf(mesh));
   ASSERT_TRUE(cuts) << cuts.error();
   ASSERT_EQ(cuts->size(), 2U);
   const auto tip = [&](std::size_t cut, bool atStart) {
